@@ -152,12 +152,131 @@ def block(
     return "\n".join(lines) + "\n"
 
 
+# ---- to the first contact --------------------------------------------------------------------------------------------
+
+
+def scene():
+    """A table under the Panda, the ground, and eight boxes around it."""
+    import holdfast as hf
+    from holdfast.model.cell import Box, HalfSpace
+
+    def at(x: float, y: float, z: float) -> Array:
+        return np.array([[1.0, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]])
+
+    heights, angles = np.linspace(0.1, 0.35, 8), np.deg2rad(np.linspace(-100, 100, 8))
+    boxes = [
+        Box(f"box {k}", [0.1, 0.12, height], pose=at(0.55 * np.cos(angle), 0.55 * np.sin(angle), height / 2 - 0.01))
+        for k, (height, angle) in enumerate(zip(heights, angles, strict=True), 1)
+    ]
+    table = Box("table", [1.6, 2.0, 0.04], pose=at(0.3, 0, -0.03))
+    cell = hf.Cell([HalfSpace("ground", pose=at(0, 0, -0.75)), table, *boxes], may_touch=[("table", "base")])
+    return hf.Clearance(panda.ours(), cell=cell)
+
+
+def moving_states(clearance, count: int) -> tuple[Array, Array]:
+    """Configurations and rates along random motions between separated configurations, at most at half the speed limits."""
+    rng = np.random.default_rng(5)
+    ends = panda.configurations(20_000, seed=6)
+    ends = ends[clearance(ends) > 0.01]
+    start, end = ends[rng.integers(len(ends), size=(2, 4 * count))]
+    phase, limit = rng.uniform(0, np.pi, (4 * count, 1)), np.array([joint.velocity for joint in panda.ours().joints])
+    q = start + (end - start) * (1 - np.cos(phase)) / 2
+    slowest = (np.abs(end - start) / (limit / 2)).max(axis=1, keepdims=True)  # duration at which the fastest is at its limit
+    rates = (end - start) * np.sin(phase) / np.maximum(slowest, 1e-9)
+    rows = np.flatnonzero(clearance(q) > 0.01)[:count]
+    return q[rows], rates[rows]
+
+
+def mujoco_contacts(clearance, step: float, duration: float) -> Callable[[Array, Array], Array]:
+    """Times (N,) at which ``mj_step`` in a Python loop first sees a contact of the same capsules; infinite if never."""
+    import mujoco
+
+    spec, shapes = panda.ours().to_mujoco(), mujoco.mjtGeom
+    for joint, dry in zip(spec.joints, DRY["coulomb"], strict=True):
+        joint.frictionloss, joint.damping = dry, [DRY["viscous"], 0, 0]
+    for number, part in enumerate(clearance.capsules):
+        if part.link >= 0:
+            shape = {"type": shapes.mjGEOM_CAPSULE, "fromto": [*part.start, *part.end]}
+            if part.length == 0:
+                shape = {"type": shapes.mjGEOM_SPHERE, "pos": part.start}
+            options = {"name": f"part {number}", "size": [part.radius, 0, 0], "mass": 0.0, "contype": 1, "conaffinity": 2}
+            spec.bodies[part.link + 1].add_geom(**options, **shape)
+    for solid in clearance.cell:
+        shape = {"type": shapes.mjGEOM_PLANE, "size": [0, 0, 1]}
+        if hasattr(solid, "size"):
+            shape = {"type": shapes.mjGEOM_BOX, "size": solid.size / 2}
+        spec.worldbody.add_geom(pos=solid.pose[:3, 3], contype=2, conaffinity=1, **shape)
+    for first, second in clearance.pairs:
+        if min(clearance.capsules.parts[part].link for part in (first, second)) >= 0:
+            spec.add_pair(geomname1=f"part {first}", geomname2=f"part {second}")
+    model = spec.compile()
+    model.opt.timestep, model.opt.integrator = step, mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    data = mujoco.MjData(model)
+
+    def run(q: Array, rates: Array) -> Array:
+        times = np.full(len(q), np.inf)
+        for k, (row, rate) in enumerate(zip(q, rates, strict=True)):
+            mujoco.mj_resetData(model, data)
+            data.qpos[:], data.qvel[:] = row, rate
+            while data.time < duration:
+                mujoco.mj_step(model, data)
+                if data.ncon:
+                    times[k] = data.time
+                    break
+        return times
+
+    return run
+
+
+def contact_table(chosen: argparse.Namespace) -> str:
+    """Rates of falls to their first contact, and how the contacts of both compare."""
+    import holdfast as hf
+
+    hf.set_threads(THREADS)
+    clearance, duration, step = scene(), 2.0, 2e-3
+    q, rates = moving_states(clearance, 2_000 if chosen.quick else 16_532)
+    few = slice(0, 60 if chosen.quick else 200)
+    friction, peer = hf.Friction(**DRY), mujoco_contacts(clearance, step, duration)
+
+    def run(step: float = step):
+        return hf.power_loss(panda.ours(), q, rates, friction=friction, clearance=clearance, duration=duration, step=step)
+
+    lines = [
+        f"### W19: {len(q):,} falls of a moving Panda to the first contact with itself or one of 10 objects",
+        "",
+        f"| contender | time of all, s (range) | falls/s | MuJoCo IMPLICITFAST {step * 1e3:g} ms, falls/s "
+        "| holdfast is faster by (range) |",
+        "| --- | ---: | ---: | ---: | ---: |",
+    ]
+    for size in (step, 4 * step):
+        ours, theirs = harness.alternate(lambda size=size: run(size), lambda: peer(q[few], rates[few]), chosen.rounds)
+        ratios = [(b / len(q[few])) / (a / len(q)) for a, b in zip(ours, theirs, strict=True)]
+        speeds = (harness.number(len(x) / float(np.median(y))) for x, y in ((q, ours), (q[few], theirs)))
+        name = f"**holdfast {size * 1e3:g} ms, {THREADS} threads, with `error`**"
+        lines.append(f"| {name} | {harness.Spread.of(ours)} | {' | '.join(speeds)} | {harness.Spread.of(ratios)} |")
+    fall, seen = run(), peer(q[few], rates[few])
+    touched, contact = fall.contacts.pair[few] >= 0, fall.contacts
+    later = 1e3 * (seen - contact.time[few])[touched & np.isfinite(seen)]
+    medians = [
+        float(np.nanmedian(x)) for x in (contact.time, contact.normal_speed, contact.effective_mass, contact.energy_lost)
+    ]
+    lines += [
+        "",
+        f"{(contact.pair >= 0).mean():.2%} touch, medians: after {medians[0]:.2f} s, at {medians[1]:.1f} m/s, "
+        f"{medians[2]:.1f} kg, {medians[3]:.1f} J lost. Of {len(seen)} falls, MuJoCo sees {np.isfinite(seen).sum()} touch and "
+        f"holdfast {touched.sum()}; holdfast misses {(np.isfinite(seen) & ~touched).sum()} of them. MuJoCo sees a contact "
+        f"{np.median(later):.1f} ms later (median; earliest {later.min():.1f} ms), because spheres enclose the capsules.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def main() -> None:
     chosen = harness.options(__doc__)
     dry = "Panda, falls of 1 s, dry friction 0.5 (shoulder and elbow) and 0.3 N m (wrist), viscous 0.1 N m s/rad, stops"
     smooth = "Panda, falls of 1 s, viscous friction 0.5 N m s/rad only, no stops"
     print(block(dry, DRY, True, chosen, [("RK4", 5e-3), ("RK4", 2e-3), ("IMPLICITFAST", 2e-3)]))
     print(block(smooth, SMOOTH, False, chosen, [("RK4", 5e-3)]))
+    print(contact_table(chosen))
     print(
         "Error: distance of the tool point from the event-driven reference, median (95 %) of 60 random poses from rest. "
         "MuJoCo's frictionloss is a soft constraint, so a part of its error is another friction, at any step. "

@@ -1,4 +1,4 @@
-"""Falls of arms whose joints lose their torque, simulated in batches without contacts."""
+"""Falls of arms whose joints lose their torque, simulated in batches up to their first contacts."""
 
 from holdfast.core._lazy import offer
 

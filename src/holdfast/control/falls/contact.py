@@ -11,7 +11,6 @@ from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
@@ -22,7 +21,6 @@ CHECK_SPACING_S = 0.01  # simulated time between two computations of the distanc
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
-MIN_BLOCK_ROWS = 1024
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +64,7 @@ class FallContacts:
 
 @dataclass(frozen=True, kw_only=True)
 class _Instant:
-    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances of all pairs (R, P), m."""
+    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances (R, P) of pairs, or (R,) of one."""
 
     time: FloatArray
     q: FloatArray
@@ -110,46 +108,43 @@ class ContactSearch:
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
-        workers = 1 if in_pool() else thread_count()
-        block_rows = min(BLOCK_DISTANCES // (1 + len(self.clearance.pair_names)), max(MIN_BLOCK_ROWS, -(-len(q) // workers)))
-        blocks = [slice(start, start + block_rows) for start in range(0, len(q), block_rows)]
-        mapped = map if workers == 1 or len(blocks) <= 1 else shared_pool().map
-        found = mapped(lambda b: self._find_contacts(q[b], rates[b], until[b], step[b]), blocks)
-        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
-        for b, (block_time, block_pair) in zip(track("blocks of falls until contact", blocks), found, strict=True):
-            time[b], pair[b] = block_time, block_pair
-        return replace(self.simulator.run(q, rates, np.fmin(time, until), step), pair=pair)
+        block_rows = BLOCK_DISTANCES // (1 + len(self.clearance.pair_names))
+        blocks = [slice(start, start + block_rows) for start in range(0, max(len(q), 1), block_rows)]
+        tracked = track("blocks of falls", blocks)
+        return FallStates.join([self._run_block(q[b], rates[b], until[b], step[b]) for b in tracked])
 
-    def _find_contacts(
-        self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
-    ) -> tuple[FloatArray, IndexArray]:
-        """Return the time (N,) and the pair (N,) of the first contact of each fall; NaN and -1 for none."""
+    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
-        time, pair = np.full(len(q), np.nan), np.full(len(q), -1, dtype=np.int64)
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
-        calls = max(1, int(CHECK_SPACING_S / step.max(initial=0.0)))
+        done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
+        calls = max(1, int(CHECK_SPACING_S / step.max(initial=1e-9)))
         before, ignored = self._measure_nearest(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
         for _ in range(most_calls // calls + 1):
-            if not rows.size:
-                break
-            result = stepper.loop.run(states, parameters, 0.5, calls)
+            result = stepper.loop.run(states[rows], parameters[rows], 0.5, calls)
             parts = stepper.layout.view_parts(result.state)
             after = self._measure_nearest(parts["time"][:, 0], parts["q"], parts["rates"])
             possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
-            doubtful = np.flatnonzero(possible.any(axis=1) | ignored.any(axis=1))
-            if doubtful.size:
-                start, end = (
-                    self._measure(part.time, part.q, part.rates) for part in (before.select(doubtful), after.select(doubtful))
-                )
-                time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
-                ignored[doubtful] &= end.distances < REQUIRED_GAP_M
-            remaining = np.flatnonzero(~result.done & (pair[rows] < 0))
+            doubtful = np.union1d(possible, np.flatnonzero(ignored.any(axis=1)))
+            start, end = (self._measure_pairs(part.select(doubtful)) for part in (before, after))
+            time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
+            ignored[doubtful] &= end.distances < REQUIRED_GAP_M
+            is_clear = pair[rows] < 0  # all others keep the state before their contact
+            states[rows[is_clear]], done[rows] = result.state[is_clear], result.done
+            remaining = np.flatnonzero(is_clear & ~result.done)
             rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
-            states, parameters = result.state[remaining], parameters[remaining]
-        return time, pair
+            if not rows.size:
+                break
+        touching = np.flatnonzero(pair >= 0)
+        for name, values in stepper.layout.view_parts(states).items():
+            if name in ("step", "tries", "mode"):
+                values[touching] = 0.0  # the step to the contact is a new one
+        stepper.parameters.view_parts(parameters)["until"][touching, 0] = time[touching]
+        result = stepper.loop.run(states[touching], parameters[touching], 0.5, most_calls)
+        states[touching], done[touching] = result.state, result.done
+        return self.simulator.read_states(q, states, done, pair)
 
-    def _measure(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
-        return _Instant(time=time, q=q, rates=rates, distances=self.clearance.by_pair(q))
+    def _measure_pairs(self, instant: _Instant) -> _Instant:
+        return replace(instant, distances=self.clearance.by_pair(instant.q))
 
     def _measure_nearest(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
         """Return instants with the distances of all pairs of links, and of the nearest object, which are fast to compute."""
@@ -159,61 +154,65 @@ class ContactSearch:
         return _Instant(time=time, q=q, rates=rates, distances=distances)
 
     def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
-        """Return the time (R,) and the pair (R,) of the first contact of each fall between two instants; NaN and -1 for none.
+        """Return the times (R,) and the pairs (R,) of the first contacts between two instants; infinite and -1 for none.
 
-        Spans of time in which a contact is possible are split until the bound excludes a contact or they are short enough.
+        A span of time in which a contact of a pair is possible is split until it is excluded or located.
         """
         time, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
-        falls, before, after = np.arange(len(ignored)), start, end
-        latest = np.full(len(ignored), np.inf)  # times at which a contact has begun
-        while True:
-            possible, is_coarse = _find_possible_contacts(before, after, self.change_bounds, ignored[falls])
-            touching = possible & (after.distances < 0)
-            np.minimum.at(latest, falls, np.where(touching.any(axis=1), after.time, np.inf))
-            is_coarse &= ~touching.any(axis=1) | (after.time - before.time > TIME_RESOLUTION_S)
-            found = np.flatnonzero(~is_coarse & touching.any(axis=1))
-            drops = np.where(touching[found], before.distances[found] - after.distances[found], 1.0)
-            fractions = np.where(touching[found], np.clip(before.distances[found] / drops, 0, 1), np.inf)
-            instants = before.time[found] + fractions.min(axis=1, initial=1.0) * (after.time - before.time)[found]
+        latest = time.copy()  # times at which a contact has begun
+        falls, pairs = _find_possible_contacts(start, end, self.change_bounds, ignored)
+        before, after = (replace(part.select(falls), distances=part.distances[falls, pairs]) for part in (start, end))
+        start, end = (replace(part, distances=part.time) for part in (start, end))  # only their motion is needed from here on
+        while falls.size:
+            change = np.sum(_bound_travel(before, after) * self.change_bounds[pairs], axis=1)
+            duration, touching = after.time - before.time, after.distances < 0
+            np.minimum.at(latest, falls[touching], after.time[touching])
+            is_possible = touching | (before.distances + after.distances < change)
+            is_coarse = is_possible & np.where(touching, duration > TIME_RESOLUTION_S, change >= MIN_DISTANCE_CHANGE_M)
+            approach = np.where(touching, np.maximum(before.distances - after.distances, 1e-300), 1.0)
+            fraction = np.clip(before.distances / approach, 0.0, 1.0)
+            instants = np.where(touching & ~is_coarse, before.time + fraction * duration, np.inf)
             order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
-            order = order[instants[order] < time[falls[found[order]]]]
-            time[falls[found[order]]], pair[falls[found[order]]] = instants[order], fractions[order].argmin(axis=1)
-            split = np.flatnonzero(is_coarse & (before.time < latest[falls]))
-            if not split.size:
-                return np.where(pair < 0, np.nan, time), pair
-            falls, before, after = falls[split], before.select(split), after.select(split)
+            order = order[instants[order] < time[falls[order]]]
+            time[falls[order]], pair[falls[order]] = instants[order], pairs[order]
+            split = is_coarse & (before.time < latest[falls])
+            falls, pairs, before, after = falls[split], pairs[split], before.select(split), after.select(split)
             middle_time = (before.time + after.time) / 2
-            middle = self._measure(*_interpolate(start.select(falls), end.select(falls), middle_time))
-            before, after, falls = before.join(middle), middle.join(after), np.concatenate([falls, falls])
+            middle = self._measure_pairs(_interpolate(start.select(falls), end.select(falls), middle_time))
+            middle = replace(middle, distances=middle.distances[np.arange(falls.size), pairs])
+            before, after = before.join(middle), middle.join(after)
+            falls, pairs = np.tile(falls, 2), np.tile(pairs, 2)
+        return time, pair
+
+
+def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
+    """Bound the travel (R, n) of each joint on the cubic polynomials between two instants, rad and m."""
+    half = (after.time - before.time)[:, None] / 2
+    travel = half * (np.abs(before.rates) + np.abs(after.rates))
+    return np.asarray(travel + np.abs(after.q - before.q - half * (before.rates + after.rates)))
 
 
 def _find_possible_contacts(
     before: _Instant, after: _Instant, change_bounds: FloatArray, ignored: BoolArray | bool = False
-) -> tuple[BoolArray, BoolArray]:
-    """Return which distances (R, P) may reach 0 between two instants, and in which falls (R,) one of them may change far."""
-    half = (after.time - before.time)[:, None] / 2
-    travel = half * (np.abs(before.rates) + np.abs(after.rates))
-    travel += np.abs(after.q - before.q - half * (before.rates + after.rates))
-    sums, touching = before.distances + after.distances, after.distances < 0
+) -> tuple[IndexArray, IndexArray]:
+    """Return the falls and the pairs of which the distance may reach 0 between two instants."""
+    travel, sums, touching = _bound_travel(before, after), before.distances + after.distances, after.distances < 0
     # Most pairs are excluded by the largest bound of all pairs.
     largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
     falls, pairs = np.nonzero(((sums < largest_change[:, None]) | touching) & np.logical_not(ignored))
     change = np.sum(travel[falls] * change_bounds[pairs], axis=1)
     is_possible = (sums[falls, pairs] < change) | touching[falls, pairs]
-    possible, is_coarse = np.zeros(sums.shape, dtype=np.bool_), np.zeros(len(sums), dtype=np.bool_)
-    possible[falls[is_possible], pairs[is_possible]] = True
-    is_coarse[falls[is_possible & (change >= MIN_DISTANCE_CHANGE_M)]] = True
-    return possible, is_coarse
+    return falls[is_possible], pairs[is_possible]
 
 
-def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return times (R,), and configurations and rates (R, n) on the cubic polynomials between two instants."""
+def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> _Instant:
+    """Return instants on the cubic polynomials between two others, with the distances of the first."""
     duration = (end.time - start.time)[:, None]
     s = (time - start.time)[:, None] / duration
     chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
     second, third = 3 * chord - 2 * first - last, first + last - 2 * chord
     q = start.q + s * (first + s * (second + s * third))
-    return time, q, (first + s * (2 * second + 3 * s * third)) / duration
+    return replace(start, time=time, q=q, rates=(first + s * (2 * second + 3 * s * third)) / duration)
 
 
 def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:

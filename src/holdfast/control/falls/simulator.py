@@ -47,6 +47,11 @@ class FallStates:
     is_finished: BoolArray
     pair: IndexArray
 
+    @classmethod
+    def join(cls, parts: list[FallStates]) -> FallStates:
+        """Return the falls of all parts in one."""
+        return cls(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in cls.__dataclass_fields__})
+
 
 class FallSimulator:
     """Falls of one arm under constant conditions.
@@ -78,12 +83,8 @@ class FallSimulator:
             until: (N,) times since the power loss, above 0, s.
             step: (N,) longest steps, s.
         """
-        blocks = [slice(start, start + BLOCK_ROWS) for start in range(0, len(q), BLOCK_ROWS)]
-        parts = [self._run_block(q[b], rates[b], until[b], step[b]) for b in track("blocks of falls", blocks)]
-        names = FallStates.__dataclass_fields__
-        if not parts:
-            return self._run_block(q, rates, until, step)
-        return FallStates(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in names})
+        blocks = [slice(start, start + BLOCK_ROWS) for start in range(0, max(len(q), 1), BLOCK_ROWS)]
+        return FallStates.join([self._run_block(q[b], rates[b], until[b], step[b]) for b in track("blocks of falls", blocks)])
 
     def make_rows(
         self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray
@@ -99,22 +100,24 @@ class FallSimulator:
         return states, parameters, int(np.ceil((until / step).max(initial=0.0)) + 100) * MOST_CALLS_PER_STEP
 
     def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
-        stepper = self.stepper
         states, parameters, most_calls = self.make_rows(q, rates, until, step)
-        start = stepper.layout.view_parts(states)["deepest"][:, 0].copy()
-        result = stepper.loop.run(states, parameters, 0.5, most_calls)
-        parts = stepper.layout.view_parts(result.state)
+        result = self.stepper.loop.run(states, parameters, 0.5, most_calls)
+        return self.read_states(q, result.state, result.done, np.full(len(q), -1, dtype=np.int64))
+
+    def read_states(self, starts: FloatArray, states: FloatArray, done: BoolArray, pair: IndexArray) -> FallStates:
+        """Return the states of falls from ``starts`` (N, n) from the states of the loop."""
+        parts = self.stepper.layout.view_parts(states)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
         return FallStates(
             q=end,
             rates=parts["rates"].copy(),
             tool=self.tool_points(end),
-            drop=parts["deepest"][:, 0] - start,
+            drop=parts["deepest"][:, 0] - self.tool_points(starts) @ self.stepper.down,
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
-            is_finished=result.done,
-            pair=np.full(len(q), -1, dtype=np.int64),
+            is_finished=done,
+            pair=pair,
         )
 
     def tool_points(self, q: FloatArray) -> FloatArray:

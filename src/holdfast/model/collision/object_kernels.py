@@ -271,11 +271,11 @@ class FormulaObjects:
 
     def link_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L, F) of the distance of every link from every object, m."""
-        rows = [
-            outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)
-            for outputs in self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks)
-        ]
-        return np.concatenate([np.empty((len(q), self._links, 0)), *rows], axis=2)[:, :, : len(self.objects)]
+        distances = np.empty((len(q), self._links, len(self.objects)))
+        for block, outputs in enumerate(self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks)):
+            columns = distances[:, :, BLOCK_OBJECTS * block : BLOCK_OBJECTS * (block + 1)]
+            columns[...] = outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)[:, :, : columns.shape[2]]
+        return distances
 
     def single_row_kernels(self) -> list[SingleRowKernel]:
         """Return :func:`nearest_gradient_kernel` of each block for one configuration at a time: the first n of its inputs."""

@@ -210,6 +210,8 @@ class Obstacles:
 
     def pair_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m if a pair may touch."""
+        if len(self._formula_indices) == len(self.cell) and len(self.links):
+            return self._formula_objects.link_distances(q).reshape(len(q), len(self.pairs))
         distances = np.empty((len(q), len(self.links), len(self.cell)))
         if len(self._formula_indices) and len(self.links):
             distances[:, :, self._formula_indices] = self._formula_objects.link_distances(q)
