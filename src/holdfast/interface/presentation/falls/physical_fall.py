@@ -56,7 +56,7 @@ def present(fall: PhysicalFall) -> Presentation:
         notices=[Notice(f"{capitalise_first(fall.contacts[0].sentence())}.")] if fall.contacts else [],
         facts=[Fact("largest drop of the tool", 1000 * fall.drop, "mm"), Fact("simulated time", float(fall.time[-1]), "s")],
         tables=[tabulate_contacts(fall.contacts)] if fall.contacts else [],
-        figures={"fall": FigureSpec(partial(_draw_figure, fall), "Over time", "Drop of the tool, and first contacts.")},
+        figures={"fall": FigureSpec(partial(_draw_figure, fall), "Over time", "Drop of the tool over time.")},
         sections=partial(_animate_fall, fall),
         method=[("Simulation", f"MuJoCo, {len(fall.time) - 1:,} time steps"), *list_friction(fall)],
         arm=fall.arm,
@@ -72,8 +72,8 @@ def _draw_figure(fall: PhysicalFall) -> Figure:
     from holdfast.interface.report.motions import TimePanel, motion_figure
 
     drops = 1000 * fall.drops
-    contacts = [(contact.time, f"{contact.link} & {contact.object}") for contact in fall.contacts or ()][:3]
-    moments = tuple((time, float(np.interp(time, fall.time, drops)), label) for time, label in contacts)
+    first_times = [contact.time for contact in fall.contacts or ()][:1]
+    moments = tuple((time, float(np.interp(time, fall.time, drops)), "first contact") for time in first_times)
     panel = TimePanel(fall.time, drops, "drop of the tool, mm", "Tool", moments=moments)
     return motion_figure([panel], f"{fall.arm.name} without power, MuJoCo", TIME_LABEL, panel_width=7)
 

@@ -66,6 +66,7 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         band: Falls from the same state without friction and with twice the friction.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
+    is_falling = single and fall.outcome not in ("holds", "unknown")
     touching = [other.contacts for other in others.values() if isinstance(other, PhysicalFall) and other.contacts]
     return Presentation(
         f"Power loss of {fall.arm.name}",
@@ -77,8 +78,8 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         ],
         facts=_list_facts(fall),
         tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
-        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if single else {},
-        sections=partial(_animate_fall, fall, others) if single else tuple,
+        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if is_falling else {},
+        sections=partial(_animate_fall, fall, others) if is_falling else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
             *shared.list_friction(fall),
@@ -150,7 +151,7 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
     drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
     if fall.q.ndim > 1:
         quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
-        return [Fact(f"largest drop of {fraction:.0%} of the falls", float(drop), "mm") for fraction, drop in quantiles]
+        return [Fact(f"largest drop in {100 * fraction:g} % of the falls", float(drop), "mm") for fraction, drop in quantiles]
     facts = [
         Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
         Fact("energy released", float(fall.released), "J", phrase="released until the end"),
@@ -161,8 +162,8 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
 
 
 def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
-    if fall.outcome == "unknown":
-        return []
+    if fall.outcome in ("holds", "unknown"):
+        return [_tabulate_joints(fall)] if fall.outcome == "holds" else []
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
@@ -201,7 +202,7 @@ def _tabulate_worst(fall: PowerLoss) -> TableSpec:
         Header("row", "row"),
         _DROP_COLUMN,
         Header("released", "energy released", "J", aligned=False),
-        Header("error", "estimated error", "mm", digits=2, aligned=False),
+        Header("error", "estimated error", "mm", digits=3, aligned=False),
         Header("outcome", "outcome"),
     ]
     worst = np.argsort(-np.nan_to_num(fall.drop, nan=-np.inf))[:WORST_ROWS]
@@ -215,8 +216,6 @@ def _find_end(fall: PowerLoss) -> float:
 
 
 def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
-    if fall.outcome in ("unknown", "holds"):
-        return []
     time = np.linspace(0.0, _find_end(fall), shared.FILM_FRAMES)
     motions = {"fall": fall.q_at(time)}
     for label, other in others.items():
