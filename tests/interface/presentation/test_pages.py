@@ -150,7 +150,7 @@ def test_many_falls_have_a_page(tmp_path):
     presentation = call_presenter(falls, "present")
     says_something(presentation.answer)
     worst = np.nanargmax(falls.drop)
-    assert presentation.answer.startswith("Of 4 falls, 3 ")
+    assert presentation.answer.startswith("Outcomes of 4 falls: 3 ")
     assert f"(row {worst})" in presentation.answer
     (table,) = presentation.list_tables()
     assert table.rows[0][0] == worst

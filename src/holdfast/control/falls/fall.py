@@ -126,18 +126,18 @@ class PowerLoss(Result):
         start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
         return np.asarray((displacement - start) @ self._simulator.stepper.down)
 
-    def to_csv(self, file: str | Path, interval: float = 0.01) -> Path:
-        """Write the motion of a single fall to ``file`` as rows every ``interval`` s, as :meth:`PhysicalFall.to_csv` does.
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the motion of a single fall to ``file`` as rows every 10 ms, as :meth:`PhysicalFall.to_csv` does.
 
         Raises:
-            InputError: There are several falls, or the interval is not above 0.
+            InputError: There are several falls.
             StoreError: The file cannot be written.
         """
         from holdfast.control.falls.physical import write_fall
 
-        if self.q.ndim > 1 or not interval > 0:
-            raise InputError(f"a file holds one fall at an interval above 0; there are {len(self)}, and it is {interval:g} s")
-        time = np.linspace(0.0, self.duration, 1 + max(1, round(self.duration / interval)))
+        if self.q.ndim > 1:
+            raise InputError(f"a file holds one fall, and there are {len(self)}; simulate one of them alone")
+        time = np.linspace(0.0, self.duration, 1 + max(1, round(100 * self.duration)))
         return write_fall(file, self.arm, time, self.q_at(time), self.rates_at(time), self.tool_at(time))
 
     @check_arguments

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects, add_link_contacts
+from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import write_table
 from holdfast.core.progress import reports_progress, track
@@ -44,8 +45,6 @@ class PhysicalFall(Result):
         time: (T,) time since the power loss, s.
         q: (T, n) configurations, rad and m.
         rates: (T, n) joint rates, rad/s and m/s.
-        tool_position: (T, 3) tool point in the world, m.
-        drop: Largest displacement of the tool point along gravity, m.
         outcome: ``rest`` if no joint moved by 1e-4 rad or m in the last 0.5 s, else ``moving``.
         cell: Objects around the arm; None without a cell.
         contacts: First contact of each link with each object and each other link, in order of time; None if none were
@@ -59,11 +58,26 @@ class PhysicalFall(Result):
     time: FloatArray
     q: FloatArray
     rates: FloatArray
-    tool_position: FloatArray
-    drop: float
     outcome: Literal["rest", "moving"]
     cell: Cell | None
     contacts: tuple[Contact, ...] | None
+
+    @cached_property
+    def tool_position(self) -> FloatArray:
+        """(T, 3) tool point in the world, m."""
+        return np.ascontiguousarray(self.arm.forward_kinematics(self.q)[:, :3, 3])
+
+    @cached_property
+    def drops(self) -> FloatArray:
+        """(T,) displacement of the tool point along gravity since the power loss, m."""
+        norm = float(np.linalg.norm(self.arm.gravity))
+        down = self.arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
+        return np.asarray((self.tool_position - self.tool_position[0]) @ down)
+
+    @property
+    def drop(self) -> float:
+        """Largest displacement of the tool point along gravity, m."""
+        return float(self.drops.max())
 
     def drop_at(self, time: ArrayLike) -> FloatArray:
         """Return the displacement of the tool point along gravity, m, at a time, s; (T,) for times (T,).
@@ -73,7 +87,7 @@ class PhysicalFall(Result):
         times = require_real_numbers(time, "time")
         if not (times >= 0).all():
             raise InputError(f"time is {time!r}; give times of 0 or more, s")
-        return np.asarray(np.interp(times, self.time, tool_drops(self.arm, self.tool_position)))
+        return np.asarray(np.interp(times, self.time, self.drops))
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion to ``file`` as rows over time: configuration, joint rates, and tool point, m.
@@ -89,12 +103,6 @@ def write_fall(file: str | Path, arm: Arm, time: FloatArray, q: FloatArray, rate
     positions, speeds, _ = motion_column_names(arm)
     header = ["time_s", *positions, *speeds, "tool_x_m", "tool_y_m", "tool_z_m"]
     return write_table(file, "motion", header, np.column_stack([time, q, rates, tool]))
-
-
-def tool_drops(arm: Arm, tool: FloatArray) -> FloatArray:
-    """Return the displacements (T,) of the tool points (T, 3) along gravity since the first one, m."""
-    norm = float(np.linalg.norm(arm.gravity))
-    return np.asarray((tool - tool[0]) @ (arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])))
 
 
 @silence_mujoco()
@@ -126,29 +134,23 @@ def simulate_contacts(
     log.require_collision_free(model)
     # Stiff constraints, because the default ones let a joint creep that friction holds.
     model.dof_solref[:], model.dof_solimp[:] = [2 * step, 1.0], [0.9999, 0.9999, 1e-3, 0.5, 2.0]
+    if ((friction.viscous[joints] + brake_damping) * model.dof_invweight0 * step > 1).any():  # Runge-Kutta would diverge
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     data = mujoco.MjData(model)
     data.qvel[:] = rates[joints]
-    _choose_integrator(mujoco, model, data, damping=friction.viscous[joints] + brake_damping)
-    positions, speeds, tools = [data.qpos.copy()], [data.qvel.copy()], []
-    mujoco.mj_forward(model, data)
-    tools.append(data.site("tool").xpos.copy())
+    positions, speeds = [data.qpos.copy()], [data.qvel.copy()]
     window, outcome = max(1, round(REST_WINDOW_S / step)), "moving"
     for index in track("time steps", range(int(np.ceil(duration / step - 1e-9))), most=True, every=window):
         is_braked = brakes is not None and index * step >= brakes.after - step / 2
-        is_slow = np.abs(data.qvel) < STICTION_SPEED
         load = friction.load[joints] * np.abs(arm.gravity_torque(_configuration(q, joints, data.qpos))[joints])
-        model.dof_frictionloss[:] = np.where(is_slow, friction.stiction[joints], friction.coulomb[joints]) + load
-        model.dof_damping[:] = friction.viscous[joints]
-        if is_braked:
-            model.dof_frictionloss[:] += brake_torque
-            model.dof_damping[:] += brake_damping
+        dry = np.where(np.abs(data.qvel) < STICTION_SPEED, friction.stiction[joints], friction.coulomb[joints])
+        model.dof_frictionloss[:] = dry + load + is_braked * brake_torque
+        model.dof_damping[:] = friction.viscous[joints] + is_braked * brake_damping
         mujoco.mj_step(model, data)
         if data.ncon:
             log.record_contacts(model, data, (index + 1) * step)
-        mujoco.mj_kinematics(model, data)
         positions.append(data.qpos.copy())
         speeds.append(data.qvel.copy())
-        tools.append(data.site("tool").xpos.copy())
         if (is_braked or brakes is None) and index >= window and np.ptp(positions[-window:], axis=0).max() < REST_TRAVEL:
             outcome = "rest"
             break
@@ -164,8 +166,6 @@ def simulate_contacts(
         time=step * np.arange(len(positions), dtype=np.float64),
         q=_configuration(q, joints, np.array(positions)),
         rates=motion_rates,
-        tool_position=np.array(tools),
-        drop=float(tool_drops(arm, np.array(tools)).max()),
         outcome=outcome,  # type: ignore[arg-type]
         cell=log.cell,
         contacts=log.list_contacts(),
@@ -177,13 +177,3 @@ def _configuration(q: FloatArray, joints: Sequence[int], displacement: FloatArra
     moved = np.broadcast_to(q, (*displacement.shape[:-1], len(q))).copy()
     moved[..., joints] += displacement
     return moved
-
-
-def _choose_integrator(mujoco: Any, model: Any, data: Any, damping: FloatArray) -> None:
-    """Choose implicit steps if the damping (F,) is so strong that Runge-Kutta would diverge."""
-    mujoco.mj_forward(model, data)
-    inertia = np.zeros((model.nv, model.nv))
-    for column, unit in zip(inertia, np.eye(model.nv), strict=True):
-        mujoco.mj_mulM(model, data, column, unit)
-    if (damping * model.opt.timestep > 1 / np.diag(np.linalg.inv(inertia))).any():
-        model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

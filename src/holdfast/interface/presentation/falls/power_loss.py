@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.control.falls.fall import FallOutcome, PowerLoss
-from holdfast.control.falls.physical import PhysicalFall, tool_drops
+from holdfast.control.falls.fall import PowerLoss
+from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.core.status import Status
 from holdfast.interface.presentation.collision.contacts import tabulate_contacts
-from holdfast.interface.presentation.falls import motion
-from holdfast.interface.presentation.falls.physical_fall import describe_end
+from holdfast.interface.presentation.falls import physical_fall as shared
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.model.arm.friction import Friction
@@ -33,13 +32,6 @@ WORST_ROWS = 10
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
 _DROP_COLUMN = Header("drop", "drop of the tool", "mm", aligned=False)
-_OUTCOME_WORDS = {
-    "holds": "do not begin",
-    "rest": "end at rest",
-    "contact": "end at a contact",
-    "moving": "still move at the end",
-    "unknown": "have no answer",
-}
 _FIGURE_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
@@ -52,10 +44,12 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         "free": [names[joint] for joint in fall.free],
         **{key: dict(zip(names, values, strict=True)) for key, values in vars(fall.friction).items()},
         "outcome": fall.outcome,
-        **{f"{key}_m": getattr(fall, key) for key in ("drop", "error")},
+        "drop_m": fall.drop,
+        "error_m": fall.error,
         "released_J": fall.released,
         "rest_time_s": fall.rest_time,
-        **{key: getattr(fall, key) for key in ("q", "q_final")},
+        "q": fall.q,
+        "q_final": fall.q_final,
         "drops": [{"time_s": time, "drop_m": drop} for time, drop in zip(times, fall.drop_at(times), strict=True)]
         if fall.q.ndim == 1
         else None,
@@ -72,22 +66,23 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         band: Falls from the same state without friction and with twice the friction.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
+    is_falling = single and fall.outcome not in ("holds", "unknown")
     touching = [other.contacts for other in others.values() if isinstance(other, PhysicalFall) and other.contacts]
     return Presentation(
         f"Power loss of {fall.arm.name}",
         f"{_compose_answer(fall, band)}." if single else _count_outcomes(fall),
-        about=f"Arm {fall.arm.title}. {motion.describe_free_joints(fall)}.",
+        about=f"Arm {fall.arm.title}. {shared.describe_free_joints(fall)}.",
         notices=[
             *_list_notices(fall),
             *[Notice(f"{capitalise_first(contacts[0].sentence())}.", title="MuJoCo") for contacts in touching],
         ],
         facts=_list_facts(fall),
         tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
-        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if single else {},
-        sections=partial(_animate_fall, fall, others) if single else tuple,
+        figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if is_falling else {},
+        sections=partial(_animate_fall, fall, others) if is_falling else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
-            *motion.list_friction(fall),
+            *shared.list_friction(fall),
             ("Stops", f"joint limits, with a restitution of {fall.restitution:g}" if fall.stops else "none"),
         ],
         arm=fall.arm,
@@ -108,7 +103,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
         return f"The fall was not simulated to its end: {Status(int(fall.status)).sentence}"
     if fall.outcome == "holds":
         return "The arm stays where it is, because friction and stops hold every joint without torque"
-    answer = motion.describe_drop(float(fall.drop))
+    answer = shared.describe_drop(float(fall.drop))
     if contact:
         answer += f" until {contact}"
     elif np.isfinite(fall.rest_time):
@@ -116,7 +111,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
     else:
         answer += f" within {format_number(fall.duration, 3)} s, and the arm still moves then"
     if band:
-        low, high = (motion.format_distance(pick(float(other.drop) for other in (fall, *band))) for pick in (min, max))
+        low, high = (shared.format_distance(pick(float(other.drop) for other in (fall, *band))) for pick in (min, max))
         answer += f"; from no friction to twice the friction: {low} to {high}"
     return answer
 
@@ -133,19 +128,19 @@ def _describe_contact(fall: PowerLoss) -> str:
 
 
 def _count_outcomes(fall: PowerLoss) -> str:
-    counts = [(int((fall.outcome == outcome).sum()), words) for outcome, words in _OUTCOME_WORDS.items()]
-    parts = " and ".join(f"{count:,} {words}" for count, words in counts if count)
-    answer = f"Of {format_count(len(fall), 'fall')}, {parts}."
+    counts = zip(*np.unique(fall.outcome, return_counts=True), strict=True)
+    answer = f"Outcomes of {format_count(len(fall), 'fall')}: {', '.join(f'{count:,} {name}' for name, count in counts)}."
     if np.isnan(fall.drop).all():
         return answer
-    median, worst = (motion.format_distance(float(pick(fall.drop))) for pick in (np.nanmedian, np.nanmax))
+    median, worst = (shared.format_distance(float(pick(fall.drop))) for pick in (np.nanmedian, np.nanmax))
     return f"{answer} The median drop is {median}, and the largest is {worst} (row {np.nanargmax(fall.drop)})."
 
 
 def _list_notices(fall: PowerLoss) -> list[Notice]:
     friction, notices = fall.friction, []
     if not (friction.coulomb.any() or friction.stiction.any() or friction.load.any()):
-        viscous = "" if friction.viscous.any() else ", nor viscous friction, so the joints swing on"
+        is_swinging = not friction.viscous.any() and np.any(fall.outcome == "moving")
+        viscous = ", nor viscous friction, so the joints swing on" if is_swinging else ""
         notices.append(Notice(f"Neither the arm nor the options state dry friction{viscous}.", "note"))
     if np.any(fall.error > INACCURATE_FRACTION * fall.drop + 1e-3):
         notices.append(Notice("Small differences grow fast in a fall. Compare the estimated error with the drop."))
@@ -156,7 +151,7 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
     drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
     if fall.q.ndim > 1:
         quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
-        return [Fact(f"largest drop of {fraction:.0%} of the falls", float(drop), "mm") for fraction, drop in quantiles]
+        return [Fact(f"largest drop in {100 * fraction:g} % of the falls", float(drop), "mm") for fraction, drop in quantiles]
     facts = [
         Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
         Fact("energy released", float(fall.released), "J", phrase="released until the end"),
@@ -167,8 +162,8 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
 
 
 def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
-    if fall.outcome == "unknown":
-        return []
+    if fall.outcome in ("holds", "unknown"):
+        return [_tabulate_joints(fall)] if fall.outcome == "holds" else []
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
@@ -176,15 +171,11 @@ def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
     title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
     tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
     if others:
-        rows = [(label, 1000 * float(other.drop), _describe_outcome(other)) for label, other in others.items()]
-        columns = [Header("condition", "condition"), _DROP_COLUMN, Header("end", "the arm")]
+        rows = [(label, 1000 * float(other.drop), str(other.outcome)) for label, other in others.items()]
+        columns = [Header("condition", "condition"), _DROP_COLUMN, Header("outcome", "outcome")]
         tables.append(TableSpec("The same state under other conditions", columns, rows))
     physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
     return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
-
-
-def _describe_outcome(fall: PowerLoss | PhysicalFall) -> str:
-    return describe_end(fall) if isinstance(fall, PhysicalFall) else FallOutcome(int(fall.code)).sentence
 
 
 def _tabulate_joints(fall: PowerLoss) -> TableSpec:
@@ -211,7 +202,7 @@ def _tabulate_worst(fall: PowerLoss) -> TableSpec:
         Header("row", "row"),
         _DROP_COLUMN,
         Header("released", "energy released", "J", aligned=False),
-        Header("error", "estimated error", "mm", digits=2, aligned=False),
+        Header("error", "estimated error", "mm", digits=3, aligned=False),
         Header("outcome", "outcome"),
     ]
     worst = np.argsort(-np.nan_to_num(fall.drop, nan=-np.inf))[:WORST_ROWS]
@@ -225,14 +216,12 @@ def _find_end(fall: PowerLoss) -> float:
 
 
 def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
-    if fall.outcome in ("unknown", "holds"):
-        return []
-    time = np.linspace(0.0, _find_end(fall), motion.FILM_FRAMES)
+    time = np.linspace(0.0, _find_end(fall), shared.FILM_FRAMES)
     motions = {"fall": fall.q_at(time)}
     for label, other in others.items():
         if isinstance(other, PhysicalFall):
             motions[label] = np.stack([np.interp(time, other.time, values) for values in other.q.T], axis=1)
-    return [motion.build_film(fall, motions, time)]
+    return [shared.build_film(fall, motions, time)]
 
 
 def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
@@ -250,8 +239,7 @@ def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
     stops = tuple(
         (float(time[row]), shown_rates[row - 1, k], f"joint {k + 1}") for row, k in arrivals[:MOST_MARKED_STOPS] if row
     )
-    physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
-    compared = [(other.time, 1000 * tool_drops(arm, other.tool_position)) for other in physical]
+    compared = [(other.time, 1000 * other.drops) for other in others.values() if isinstance(other, PhysicalFall)]
     speeds = {arm.joint_names[k]: shown_rates[:, k] for k in fall.free}
     label = f"joint rate, {' or '.join(sorted({f'{units[k]}/s' for k in fall.free}))}"
     panels = [
@@ -259,4 +247,4 @@ def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
         TimePanel(time, energies, "energy, J", "Energy"),
         TimePanel(time, speeds, label, "Joints", moments=stops),
     ]
-    return motion_figure(panels, f"{arm.name} without power, simulated", motion.TIME_LABEL)
+    return motion_figure(panels, f"{arm.name} without power, simulated", shared.TIME_LABEL)
