@@ -15,6 +15,7 @@ from holdfast.core.typing import FloatArray, IndexArray
 # Tokens of trees in the format of the verifier; the token of a split node is SPLIT_TOKEN plus the axis.
 PROVED_TOKEN = 0
 UNDECIDED_TOKEN = 2
+REFUTED_TOKEN = 3  # of a claim that an arm holds: in the whole box a joint moves
 SPLIT_TOKEN = 16
 _MAX_AXES = 112
 
@@ -164,7 +165,7 @@ def compute_depths(tokens: bytes) -> list[int]:
     return depths
 
 
-def compute_undecided_fraction(tokens: bytes) -> Fraction:
-    """Return the exact undecided fraction of a tree in pre-order."""
-    undecided = Counter(depth for token, depth in zip(tokens, compute_depths(tokens), strict=True) if token == UNDECIDED_TOKEN)
-    return sum((Fraction(count, 1 << depth) for depth, count in undecided.items()), Fraction(0))
+def compute_undecided_fraction(tokens: bytes, searched_token: int = UNDECIDED_TOKEN) -> Fraction:
+    """Return the exact undecided fraction of a tree in pre-order, or that of another token."""
+    counts = Counter(depth for token, depth in zip(tokens, compute_depths(tokens), strict=True) if token == searched_token)
+    return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))
