@@ -105,7 +105,7 @@ def require_same_arm(document: Document, arm: Arm) -> None:
     """
     stored_arm, given_arm = document["arm"], _encode_arm(arm)
     if stored_arm == given_arm:
-        if "bodies" in document and encode_statics(arm).items() > document.items():
+        if "bodies" in document and document != document | encode_statics(arm):
             raise InputError(f"the certificate is about '{document['source']['name']}' with other masses, or other gravity")
         return
     stored, given = (

@@ -117,7 +117,8 @@ def hold_claim(arm: Arm, lower: ArrayLike, upper: ArrayLike, *, friction: Fricti
             neither friction nor a joint at its stop.
     """
     require_masses(arm)
-    box, limits = as_configurations(arm, [lower, upper])[0].T, np.column_stack([arm.lower, arm.upper])
+    ends, limits = (as_configurations(arm, end)[0][0] for end in (lower, upper)), np.column_stack([arm.lower, arm.upper])
+    box = np.column_stack([*ends])
     is_stop = (box[:, :1] == box[:, 1:]) & (np.abs(box - limits) <= STOP_TOLERANCE)
     box = np.where(is_stop[:, :1], limits[:, :1], np.where(is_stop[:, 1:], limits[:, 1:], box))
     for index, interval in enumerate(box):

@@ -128,9 +128,10 @@ class HoldVerifier(LeafVerifier):
 
 def hold_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
     """Return the form of the keys that a hold or nudge claim has in addition to the common ones."""
-    form = {"joint_box": [[NUMBER_PATTERN, 2], n], "friction": [NUMBER_PATTERN, n], "gravity": [NUMBER_PATTERN, 3]}
-    form |= {"bodies": [{"mass": NUMBER_PATTERN, "center": [NUMBER_PATTERN, 3]}, n], "tree": TEXT_PATTERN}
-    return form | ({"start": [NUMBER_PATTERN, n], "energy": NUMBER_PATTERN} if document["kind"] == "nudge" else {})
+    vector, values = [NUMBER_PATTERN, 3], [NUMBER_PATTERN, n]
+    form: dict[str, Any] = {"joint_box": [[NUMBER_PATTERN, 2], n], "friction": values, "gravity": vector, "tree": TEXT_PATTERN}
+    form |= {"start": values, "energy": NUMBER_PATTERN} if document["kind"] == "nudge" else {}
+    return form | {"bodies": [{"mass": NUMBER_PATTERN, "center": vector}, n]}
 
 
 def describe_hold(document: dict[str, Any], names: list[str]) -> str:
