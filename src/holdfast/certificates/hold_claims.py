@@ -183,8 +183,9 @@ def _prove_nudge(claim: HoldClaim, halvings: int, seed: int, budget: SearchBudge
     started, arm, start, tree = perf_counter(), claim.arm, claim.start, bytes([UNDECIDED_TOKEN])
     assert start is not None
     if claim.energy:
-        energy, tree = EnergySearch(arm, start, claim.friction).run(claim.joint_box)
-        claim = replace(claim, energy=min(energy, _MAX_ENERGY_J))
+        energy, proved_tree = EnergySearch(arm, start, claim.friction).run(claim.joint_box)
+        claim = replace(claim, energy=min(max(energy, 0.0), _MAX_ENERGY_J))
+        tree = proved_tree if claim.energy else tree
     drop, (lower, upper) = bound_drop(arm, start, claim.joint_box), claim.joint_box.T
     return NudgeProof.from_search(
         claim, {"tree": documents.compress_bytes(tree)}, summarize_tree(tree, len(tree), True),

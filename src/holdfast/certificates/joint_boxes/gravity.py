@@ -106,10 +106,10 @@ class EnergySearch:
         nearest = np.hstack([np.tile(self._start, (len(numbers), 1)), numbers])  # points of the faces, where energies are small
         self._test_boxes(nearest, 0.5 * np.eye(self._arm.n + 1)[[-1] * len(numbers)])
         bisection = BoxBisection(np.vstack([joint_box, faces]), _MINIMUM_HALVINGS)
-        is_complete = bisection.run(self._test_boxes, max_nodes=_MINIMUM_NODES) and bisection.undecided == 0
-        if not is_complete or self._least < enough:
-            return -np.inf, b""
-        return self._bound - 2 * self._margin, bisection.tree.preorder_tokens()
+        if not bisection.run(self._test_boxes, max_nodes=_MINIMUM_NODES):
+            self._enough = np.inf  # so that the remaining boxes count as they are
+            bisection.run(self._test_boxes)
+        return -np.inf if self._least < enough else self._bound - 2 * self._margin, bisection.tree.preorder_tokens()
 
     def _test_boxes(self, middle: FloatArray, half: FloatArray) -> tuple[IndexArray, FloatArray]:
         n, (joint, side), is_single = self._arm.n, divmod(middle[:, -1].astype(np.int64), 2), half[:, -1] <= 0.5
@@ -124,9 +124,11 @@ class EnergySearch:
         with np.errstate(invalid="ignore", divide="ignore"):
             balance = np.nan_to_num(np.clip(-torques / self._friction, -1, 1))
         force = self._friction * np.where(np.abs(offset) >= half, np.sign(offset), balance)
-        lower = np.where(counts, value + (force * offset - np.abs(torques + force) * half - costs).sum(axis=1), np.inf)
-        upper = np.where(counts & is_single, value + np.abs(offset) @ self._friction, np.inf)
-        self._least = min(self._least, float(upper.min()))
+        slope = torques + force
+        lower = np.where(counts, value + (force * offset - np.abs(slope) * half - costs).sum(axis=1), np.inf)
+        lowest = np.where(np.abs(force) < self._friction, self._start, middle - np.sign(slope) * half)  # for the linear bound
+        upper = self._kernel.rows(lowest, 0 * half)[:, 0] - self._start_energy + np.abs(lowest - self._start) @ self._friction
+        self._least = min(self._least, float(upper[counts & is_single].min(initial=np.inf)))
         gap = _MINIMUM_TOLERANCE * abs(self._least) + self._margin
         is_last = is_single & (~counts | (lower >= self._least - gap) | (self._least < self._enough))
         self._bound = min(self._bound, float(lower[is_last].min(initial=np.inf)))
