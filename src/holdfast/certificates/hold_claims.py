@@ -72,11 +72,6 @@ class HoldProof(BisectionResult):
     refuted: Fraction
     witness: FloatArray | None
 
-    @property
-    def ok(self) -> bool:
-        """True if the arm is proved to hold the whole box."""
-        return self.proved == 1
-
 
 @dataclass(frozen=True, kw_only=True)
 class NudgeProof(BisectionResult):

@@ -66,10 +66,7 @@ class BisectionResult(CertificateResult):
 
     @classmethod
     def from_search(cls, claim: Any, fields: dict[str, Any], search: Any = None, *, seconds: float, **values: Any) -> Self:
-        """Return the result of a search for a claim, with the certificate whose ``fields`` prove it.
-
-        The numbers of leaves and so on are attributes of ``search``, or values.
-        """
+        """Return the result of a search, which contains the numbers of leaves and so on, with the certificate of ``fields``."""
         values |= {key: getattr(search, key) for key in ("undecided", "leaves", "nodes", "finished")} if search else {}
         undecided, refuted = values["undecided"], values.get("refuted", Fraction(0))
         document = documents.build_document(
@@ -80,8 +77,8 @@ class BisectionResult(CertificateResult):
 
     @property
     def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
+        """True if the whole claim is proved."""
+        return self.proved == 1
 
 
 @dataclass(frozen=True, kw_only=True)

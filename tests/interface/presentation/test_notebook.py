@@ -160,6 +160,7 @@ ELSEWHERE = {
     "ProbingMotion",
     "FaultRun",
     "FreeSwing",
+    "HoldCheck",
     "MergeReport",
     "Orbit",
     "PhysicalRun",
