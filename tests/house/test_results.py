@@ -35,7 +35,8 @@ RESULTS = named(
         "Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
         "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",
-        "certificates": "ManipulabilityBound CertificateCheck HoldProof NudgeProof PathProof Refutation Proof StructuralZero TolerantProof",
+        "certificates": "ManipulabilityBound CertificateCheck HoldProof NudgeProof PathProof Refutation Proof "
+        "StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "studies.designs": "RecordBook ArmComparison DesignRecord RecordCheck",
         "core.sweeps": "MergeReport Study StudyVerification",
