@@ -32,19 +32,13 @@ def format_claim(claim: Claim) -> str:
 
 
 def build_document(
-    claim: Claim,
-    fields: Document,
-    *,
-    undecided: Fraction | None = None,
-    refuted: Fraction = Fraction(0),
-    seconds: float,
-    nodes: int,
+    claim: Claim, fields: Document, *, undecided: Fraction | None = None, refuted: Fraction = Fraction(0), **effort: Any
 ) -> Document:
     """Build the certificate of a claim with the fields that prove it, and with undecided and refuted fractions of its box.
 
-    If ``undecided`` is None, the fields contain the volumes.
+    If ``undecided`` is None, the fields contain the volumes. ``effort`` contains the seconds and the number of nodes.
     """
-    document = _common_fields(claim, seconds, nodes) | fields
+    document = _common_fields(claim, **effort) | fields
     if undecided is not None:
         fractions = {"proved": 1 - undecided - refuted, "refuted": refuted, "undecided": undecided}
         powers = {key: (part.numerator, part.denominator.bit_length() - 1) for key, part in fractions.items()}
