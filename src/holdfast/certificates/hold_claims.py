@@ -17,8 +17,8 @@ from holdfast.certificates.joint_boxes.halving import bisect_box, require_feasib
 from holdfast.certificates.kinds import Claim, ClaimKind
 from holdfast.certificates.proof import BisectionResult
 from holdfast.certificates.search_pool import SearchBudget
-from holdfast.certificates.tree import REFUTED_TOKEN, UNDECIDED_TOKEN, compute_undecided_fraction
-from holdfast.certificates.verifier_parts.tree import iterate_cells
+from holdfast.certificates.tree import UNDECIDED_TOKEN, compute_undecided_fraction
+from holdfast.certificates.verifier_parts.tree import FIRST_LOCK_TOKEN, REFUTED_TOKEN, iterate_cells
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
@@ -196,7 +196,7 @@ def _prove_hold(claim: HoldClaim, halvings: int, seed: int, budget: SearchBudget
     require_feasible_box_count(test, claim.joint_box, halvings, seed, "use a smaller box, or fewer halvings")
     bisection, witness = bisect_box(test, claim.joint_box, halvings, budget), None
     if refuted := compute_undecided_fraction(bisection.tree, REFUTED_TOKEN):
-        cells = (cell for token, cell in iterate_cells(bisection.tree, n, REFUTED_TOKEN) if token == REFUTED_TOKEN)
+        cells = (cell for token, cell in iterate_cells(bisection.tree, n, 2, FIRST_LOCK_TOKEN) if token == REFUTED_TOKEN)
         places, depths = np.array(min(cells, key=lambda cell: sum(depth for _, depth in cell))).T  # of the largest cell
         witness = lower + (upper - lower) * (places + 0.5) / 2.0**depths
     return HoldProof.from_search(

@@ -15,7 +15,6 @@ from holdfast.core.typing import FloatArray, IndexArray
 # Tokens of trees in the format of the verifier; the token of a split node is SPLIT_TOKEN plus the axis.
 PROVED_TOKEN = 0
 UNDECIDED_TOKEN = 2
-REFUTED_TOKEN = 3  # of a claim that an arm holds: in the whole box a joint moves
 SPLIT_TOKEN = 16
 _MAX_AXES = 112
 

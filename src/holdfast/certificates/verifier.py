@@ -6,7 +6,7 @@ joint whose lock reduces enough. The search that found them may be wrong. Here e
 The modules in the folder next to this file explain at their top what a leaf proves: ``targets`` (reached), ``distances`` (out
 of reach), ``bounds`` (ceilings and floors of relative manipulability), ``holding`` (arms without power), ``zeros`` (structural
 zeros), ``motions`` (paths). ``files`` checks the form of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths``
-read the cells, ``chain`` encloses the arm and its target, ``taylor`` proves most leaves. These are 1,845 lines of code in all,
+read the cells, ``chain`` encloses the arm and its target, ``taylor`` proves most leaves. These are 1,843 lines of code in all,
 without docstrings and comments; the explanation of certificates in the documentation lists those to be read for one claim.
 """
 

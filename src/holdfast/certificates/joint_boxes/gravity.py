@@ -12,7 +12,8 @@ import casadi as ca
 import numpy as np
 
 from holdfast.certificates.joint_boxes.halving import OPEN_TOKEN, BoxBisection
-from holdfast.certificates.tree import PROVED_TOKEN, REFUTED_TOKEN
+from holdfast.certificates.tree import PROVED_TOKEN
+from holdfast.certificates.verifier_parts.tree import REFUTED_TOKEN
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel

@@ -12,7 +12,6 @@ import numpy as np
 
 from holdfast.certificates.search_pool import JobResult, SearchBudget, SearchJob, StopCheck
 from holdfast.certificates.tree import (
-    REFUTED_TOKEN,
     SPLIT_TOKEN,
     UNDECIDED_TOKEN,
     BisectionTree,
@@ -21,7 +20,7 @@ from holdfast.certificates.tree import (
     compute_undecided_fraction,
     is_split,
 )
-from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
+from holdfast.certificates.verifier_parts.tree import MAX_LEAVES, REFUTED_TOKEN
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 

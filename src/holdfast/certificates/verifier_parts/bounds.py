@@ -94,13 +94,9 @@ class CeilingVerifier(LeafVerifier):
         self.locks = document["locks"]
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """Return the number of leaves, the undecided cells, and an iterator of leaves with their tokens."""
+        """Return the number of leaves, the undecided cells, and an iterator of leaves with their joint (0 for a floor)."""
         tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
         return read_bisection(document, self.arm.n, tokens)
-
-    def leaf_kind(self, leaf: Leaf) -> int:
-        """Return the joint whose lock proves a leaf (0 for a floor)."""
-        return max(int(leaf[1]) - FIRST_LOCK_TOKEN, 0)
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
         """Return a mask of the leaves in which a lock of joint ``kind`` reduces relative manipulability enough."""

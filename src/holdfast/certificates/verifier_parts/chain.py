@@ -147,15 +147,18 @@ class BallChain:
 def read_bisection(
     document: dict[str, Any], axes: int, leaf_tokens: Collection[int]
 ) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-    """Return the number of leaves of a tree, its undecided cells, and an iterator of its leaves with their tokens."""
+    """Return the number of leaves of a tree, its undecided cells, and an iterator of its leaves with their numbers.
+
+    The number is 0, or for tokens from ``FIRST_LOCK_TOKEN`` on their distance from it.
+    """
     tree = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree")
     is_valid = set(tree) <= {2, *leaf_tokens, *range(SPLIT_TOKEN, SPLIT_TOKEN + axes)}
     require(is_valid, "a token of the tree is unknown, or not among the locks")
-    undecided = [cell for token, cell in iterate_cells(tree, axes, SPLIT_TOKEN - 1, FIRST_LOCK_TOKEN) if token == 2]
+    undecided = [cell for token, cell in iterate_cells(tree, axes, 2, FIRST_LOCK_TOKEN) if token == 2]
 
     def iterate_leaves() -> Iterator[Leaf]:
-        cells = iterate_cells(tree, axes, SPLIT_TOKEN - 1, FIRST_LOCK_TOKEN)
-        return ((cell, token) for token, cell in cells if token != 2)
+        cells = iterate_cells(tree, axes, 2, FIRST_LOCK_TOKEN)
+        return ((cell, max(token - FIRST_LOCK_TOKEN, 0)) for token, cell in cells if token != 2)
 
     return sum(tree.count(token) for token in leaf_tokens), undecided, iterate_leaves
 

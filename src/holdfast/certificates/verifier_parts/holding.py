@@ -19,9 +19,7 @@ from .balls import ROUND_UP, Array, BallArray, bound_length, concatenate, cross_
 from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration, enclose_sine_and_cosine, read_bisection
 from .forms import NUMBER_PATTERN, TEXT_PATTERN, compute_digest, format_intervals, parse_hex, require
 from .taylor import DerivativeEnclosure
-from .tree import Cell
-
-REFUTED_TOKEN = 3
+from .tree import REFUTED_TOKEN, Cell
 
 
 class GravityEnclosure:
@@ -93,16 +91,16 @@ class HoldVerifier(LeafVerifier):
         require(is_inside and (self.friction >= 0).all(), "the start is outside of the box, or a friction below 0")
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
-        """Return the number of leaves, the undecided cells, and an iterator of leaves with their tokens."""
+        """Return the number of leaves, the undecided cells, and an iterator of leaves, not 0 if refuted."""
         return read_bisection(document, self.arm.n + self.is_nudge, (0,) if self.is_nudge else (0, REFUTED_TOKEN))
 
     def leaf_kind(self, leaf: Leaf) -> Any:
-        """Return the token of a leaf; for a nudge its number of the face, with the depth."""
+        """Return 0 except for a refuted leaf; for a nudge the number of the face, with the depth."""
         return leaf[0][-1] if self.is_nudge else leaf[1]
 
     def find_refuted_cells(self, leaves: Callable[[], Iterator[Leaf]]) -> set[Cell]:
         """Return the cells in which some joint moves."""
-        return {cell for cell, token in leaves() if token == REFUTED_TOKEN}
+        return {cell for cell, number in leaves() if number}
 
     def verify_leaves(self, kind: Any, leaves: list[Leaf]) -> Iterable[Any]:
         """Return flags of the leaves in which all joints hold, one moves, or the energy of a nudge does not suffice."""
@@ -123,7 +121,7 @@ class HoldVerifier(LeafVerifier):
         carries_up, carries_down = (self.is_stop & (self.box[:, :1] == self.box[:, 1:])).T  # stops of joints that do not move
         most, least = np.where(carries_up, np.inf, self.friction), np.where(carries_down, -np.inf, -self.friction)
         moves = ((lower > most) | (upper < least)).any(axis=1)
-        return np.asarray(moves if kind == REFUTED_TOKEN else ((lower >= least) & (upper <= most)).all(axis=1))
+        return np.asarray(moves if kind else ((lower >= least) & (upper <= most)).all(axis=1))
 
 
 def hold_claim_schema(document: dict[str, Any], n: int) -> dict[str, Any]:
