@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from time import perf_counter
 from typing import Any, ClassVar
@@ -155,37 +155,33 @@ def survived_nudge(
     trials = np.outer(_HALF_WIDTHS, np.ones(arm.n))
     if half_widths is not None:
         trials = joint_numbers(arm, half_widths, "half width")[None]
-    search, energy, joint_box, half = EnergySearch(arm, start, coulomb), 0.0, np.column_stack([start, start]), trials[0]
+    search, tree, half = EnergySearch(arm, start, coulomb), bytes([UNDECIDED_TOKEN]), trials[0]
+    energy, (lower, upper) = 0.0, (start, start)
     for _ in range(1 + _MAX_RESIZE_ROUNDS * (half_widths is None)):
         previous = half
         for trial in trials:
-            box, needed = np.clip([start - trial, start + trial], arm.lower, arm.upper).T, 1.02 * energy
+            ends, needed = np.clip([start - trial, start + trial], arm.lower, arm.upper), 1.02 * energy
             if trial.sum() < half.sum():  # a smaller box limits the drop, too
                 needed = 0.999 * energy
-            bound, _ = search.run(box, enough=needed)
+            bound, proved_tree = search.run(ends.T, enough=needed)
             if bound > needed:
-                energy, joint_box, half = min(bound, _MAX_ENERGY_J), box, trial
+                energy, (lower, upper), half, tree = min(bound, _MAX_ENERGY_J), ends, trial, proved_tree
         if energy == 0 or half is previous:
             break
         scales = 1 + np.concatenate([(factor - 1) * np.eye(arm.n) for factor in _RESIZE_FACTORS])
         trials = np.minimum(half * scales, _MAX_HALF_WIDTH)
-    claim = HoldClaim(arm=arm, kind="nudge", joint_box=joint_box, friction=coulomb, start=start, energy=energy)
-    return replace(_prove_nudge(claim, 0, 0, SearchBudget()), seconds=perf_counter() - started)
-
-
-def _prove_nudge(claim: HoldClaim, halvings: int, seed: int, budget: SearchBudget) -> NudgeProof:
-    """Prove the largest energy for the box of a claim, unless its energy is 0."""
-    started, arm, start, tree = perf_counter(), claim.arm, claim.start, bytes([UNDECIDED_TOKEN])
-    assert start is not None
-    if claim.energy:
-        energy, proved_tree = EnergySearch(arm, start, claim.friction).run(claim.joint_box)
-        claim = replace(claim, energy=min(max(energy, 0.0), _MAX_ENERGY_J))
-        tree = proved_tree if claim.energy else tree
-    drop, (lower, upper) = bound_drop(arm, start, claim.joint_box), claim.joint_box.T
+    box = np.column_stack([lower, upper])
+    claim = HoldClaim(arm=arm, kind="nudge", joint_box=box, friction=coulomb, start=start, energy=energy)
+    drop, bisection = bound_drop(arm, start, box), summarize_tree(tree, len(tree), True)
     return NudgeProof.from_search(
-        claim, {"tree": documents.compress_bytes(tree)}, summarize_tree(tree, len(tree), True),
-        seconds=perf_counter() - started, energy=claim.energy, lower=lower, upper=upper, drop_at_most=drop,
+        claim, {"tree": documents.compress_bytes(tree)}, bisection, seconds=perf_counter() - started,
+        energy=energy, lower=lower, upper=upper, drop_at_most=drop,
     )  # fmt: skip
+
+
+def _prove_nudge(claim: Any, *options: Any) -> NudgeProof:
+    half_widths = np.abs(claim.joint_box - np.reshape(claim.start, (-1, 1))).max(axis=1)
+    return survived_nudge(claim.arm, claim.start, friction=Friction(coulomb=claim.friction), half_widths=half_widths)
 
 
 def _prove_hold(claim: HoldClaim, halvings: int, seed: int, budget: SearchBudget) -> HoldProof:
