@@ -57,6 +57,9 @@ def claims():
         "a ceiling": c.ceiling_claim(four, box, 0.3),
         "a floor": c.floor_claim(four, box, 0.01),
         "a structural zero": c.structural_zero_claim(hf.arms.load("iiwa14"), "lbr_iiwa_joint_4"),
+        "an arm that holds, or survives a nudge": c.hold_claim(
+            four, middle - 0.01, middle + 0.01, friction=hf.Friction(coulomb=90.0)
+        ),
         "a path": c.path_claim(three, motion, task="planar", failures=[0]),
     }
 

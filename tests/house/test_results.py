@@ -36,7 +36,8 @@ RESULTS = named(
         "Recovery Runs TargetMeasures TolerantWorkspace "
         "Trajectory WorkingRanges Workspace",
         "kinematics.index_bounds": "UpperBound UpperBoundTable SingularValueBound",
-        "certificates": "ManipulabilityBound CertificateCheck PathProof Refutation Proof StructuralZero TolerantProof",
+        "certificates": "ManipulabilityBound CertificateCheck HoldProof NudgeProof PathProof Refutation Proof "
+        "StructuralZero TolerantProof",
         "control": "ExportedLaw TradeOff",
         "control.falls": "PhysicalFall",
         "studies.designs": "RecordBook ArmComparison DesignRecord RecordCheck",
@@ -92,7 +93,7 @@ INPUTS = named(
         "": "Brakes Friction Arm Body Capsules Cell DH Degraded DesignSpace FailureRates Joint Link PointToPoint Region "
         "Servos Task",
         "model.arm": "Chain",
-        "certificates": "BoundClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
+        "certificates": "BoundClaim HoldClaim OutOfReachClaim PathClaim ReachClaim StructuralZeroClaim TolerantClaim",
         "model.cell": "Box Capsule Cylinder HalfSpace Mesh Points Solid Source Sphere",
         "model.collision": "IgnoredPair LinkCapsule",
         "control": "Law",

@@ -6,6 +6,11 @@ from holdfast.certificates.claims import TolerantClaim as TolerantClaim
 from holdfast.certificates.claims import out_of_reach_claim as out_of_reach_claim
 from holdfast.certificates.claims import reach_claim as reach_claim
 from holdfast.certificates.claims import tolerant_claim as tolerant_claim
+from holdfast.certificates.hold_claims import HoldClaim as HoldClaim
+from holdfast.certificates.hold_claims import HoldProof as HoldProof
+from holdfast.certificates.hold_claims import NudgeProof as NudgeProof
+from holdfast.certificates.hold_claims import hold_claim as hold_claim
+from holdfast.certificates.hold_claims import survived_nudge as survived_nudge
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound as ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation as Refutation
 from holdfast.certificates.joint_claims import BoundClaim as BoundClaim

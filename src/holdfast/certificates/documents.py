@@ -15,11 +15,12 @@ from holdfast import __version__
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import LockedTargetClaim, TargetClaim
 from holdfast.certificates.kinds import Claim, find_claim_kind
-from holdfast.certificates.taylor import CertificateChain
+from holdfast.certificates.taylor import CertificateChain, rotation_to_axis
 from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verifier_parts.tree import Cell
 from holdfast.core.errors import InputError
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.statics import links_with_payload
 
 Document = dict[str, Any]
 
@@ -31,15 +32,15 @@ def format_claim(claim: Claim) -> str:
 
 
 def build_document(
-    claim: Claim, fields: Document, *, undecided: Fraction | None = None, seconds: float, nodes: int
+    claim: Claim, fields: Document, *, undecided: Fraction | None = None, refuted: Fraction = Fraction(0), **effort: Any
 ) -> Document:
-    """Build the certificate of a claim with the fields that prove it, and with the fraction ``undecided`` of its box.
+    """Build the certificate of a claim with the fields that prove it, and with undecided and refuted fractions of its box.
 
-    If ``undecided`` is None, the fields contain the volumes.
+    If ``undecided`` is None, the fields contain the volumes. ``effort`` contains the seconds and the number of nodes.
     """
-    document = _common_fields(claim, seconds, nodes) | fields
+    document = _common_fields(claim, **effort) | fields
     if undecided is not None:
-        fractions = {"proved": 1 - undecided, "refuted": Fraction(0), "undecided": undecided}
+        fractions = {"proved": 1 - undecided - refuted, "refuted": refuted, "undecided": undecided}
         powers = {key: (part.numerator, part.denominator.bit_length() - 1) for key, part in fractions.items()}
         document["volumes"] = {key: f"{numerator}/2^{power}" for key, (numerator, power) in powers.items()}
     document["arm_digest"] = verifier.compute_digest(document["arm"])
@@ -81,6 +82,15 @@ def encode_limits(arm: Arm) -> list[list[str]]:
     return limits
 
 
+def encode_statics(arm: Arm) -> Document:
+    """Return the fields with gravity and with the mass and its center of each link, the last one with the payload."""
+    bodies = [
+        {"mass": encode_floats(link.mass), "center": encode_floats(rotation_to_axis(joint.axis).T @ link.com)}
+        for joint, link in zip(arm.joints, links_with_payload(arm), strict=True)
+    ]
+    return {"gravity": encode_floats(arm.gravity), "bodies": bodies}
+
+
 def require_same_arm(document: Document, arm: Arm) -> None:
     """Raise an error if a certificate is about another arm.
 
@@ -89,6 +99,8 @@ def require_same_arm(document: Document, arm: Arm) -> None:
     """
     stored_arm, given_arm = document["arm"], _encode_arm(arm)
     if stored_arm == given_arm:
+        if "bodies" in document and document != document | encode_statics(arm):
+            raise InputError(f"the certificate is about '{document['source']['name']}' with other masses, or other gravity")
         return
     stored, given = (
         [*((joint["name"], joint) for joint in fields["joints"]), ("the tool", fields["tool"])]

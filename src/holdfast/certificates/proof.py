@@ -65,18 +65,20 @@ class BisectionResult(CertificateResult):
     document: dict[str, Any]
 
     @classmethod
-    def from_search(
-        cls, claim: Any, fields: dict[str, Any], *, undecided: Fraction, nodes: int, seconds: float, **values: Any
-    ) -> Self:
-        """Return the result of a search for a claim, with the certificate whose ``fields`` prove it."""
-        document = documents.build_document(claim, fields, undecided=undecided, seconds=seconds, nodes=nodes)
-        counts: dict[str, Any] = {"proved": 1 - undecided, "undecided": undecided, "nodes": nodes, "seconds": seconds}
+    def from_search(cls, claim: Any, fields: dict[str, Any], search: Any = None, *, seconds: float, **values: Any) -> Self:
+        """Return the result of a search, which contains the numbers of leaves and so on, with the certificate of ``fields``."""
+        values |= {key: getattr(search, key) for key in ("undecided", "leaves", "nodes", "finished")} if search else {}
+        undecided, refuted = values["undecided"], values.get("refuted", Fraction(0))
+        document = documents.build_document(
+            claim, fields, undecided=undecided, refuted=refuted, seconds=seconds, nodes=values["nodes"]
+        )
+        counts: dict[str, Any] = {"proved": 1 - undecided - refuted, "seconds": seconds}
         return cls(claim=claim, document=document, **counts, **values)
 
     @property
     def ok(self) -> bool:
-        """True if nothing is undecided."""
-        return self.undecided == 0
+        """True if the whole claim is proved."""
+        return self.proved == 1
 
 
 @dataclass(frozen=True, kw_only=True)

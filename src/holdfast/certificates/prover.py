@@ -10,6 +10,7 @@ import numpy as np
 
 from holdfast.certificates import documents
 from holdfast.certificates.claims import OutOfReachClaim, ReachClaim, TolerantClaim
+from holdfast.certificates.hold_claims import HoldClaim, HoldProof
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.joint_claims import BoundClaim, StructuralZeroClaim
@@ -54,6 +55,8 @@ def certify(claim: StructuralZeroClaim, **how: Unpack[CertifyOptions]) -> Struct
 @overload
 def certify(claim: PathClaim, **how: Unpack[CertifyOptions]) -> PathProof: ...
 @overload
+def certify(claim: HoldClaim, **how: Unpack[CertifyOptions]) -> HoldProof: ...
+@overload
 def certify(claim: Claim, **how: Unpack[CertifyOptions]) -> Any: ...
 @check_arguments
 @reports_progress("searching for a proof")
@@ -75,15 +78,16 @@ def certify(
     each cell. It is proved to be out of reach by bisecting configurations and targets until distances exclude each box, or
     refuted by a configuration with its tool in the box. A ceiling of relative manipulability is proved by a wrench for each
     part of the box of configurations, and a floor by a motion. A structural zero needs no search, because its axes either meet
-    or not. A path is proved by cells that follow each interval of lock instants and are matched at their shared faces.
+    or not. A path is proved by cells that follow each interval of lock instants and are matched at their shared faces. That an
+    arm holds is proved or refuted by bounds of the gravity torques in each box of configurations.
 
     Args:
         claim: Claim of :func:`holdfast.certificates.reach_claim`, :func:`holdfast.certificates.tolerant_claim`,
             :func:`holdfast.certificates.out_of_reach_claim`, :func:`holdfast.certificates.ceiling_claim`,
-            :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim` or
-            :func:`holdfast.certificates.path_claim`.
-        halvings: Largest number of bisections of each axis; smaller cells stay undecided. Default: 8; for joints 16; for
-            lock instants, which are bisected within a segment at most 13 times, 6.
+            :func:`holdfast.certificates.floor_claim`, :func:`holdfast.certificates.structural_zero_claim`,
+            :func:`holdfast.certificates.path_claim` or :func:`holdfast.certificates.hold_claim`.
+        halvings: Largest number of bisections of each axis; smaller cells stay undecided. Default: 8; for joints 16, or 6
+            for a hold claim; for lock instants, which are bisected within a segment at most 13 times, 6.
         time_limit: Time limit, s, after which all open cells are undecided. The parts of a failure-tolerant box get equal
             times, and the others use the time that one part leaves. None: no limit; then a seed determines the certificate.
         seed: Seed of all random samples.
@@ -98,9 +102,9 @@ def certify(
     Returns:
         A :class:`holdfast.certificates.Proof`, or for the other claims a :class:`holdfast.certificates.TolerantProof`,
         :class:`holdfast.certificates.Refutation`, :class:`holdfast.certificates.ManipulabilityBound`,
-        :class:`holdfast.certificates.StructuralZero` or :class:`holdfast.certificates.PathProof`. The prover found it, but it
-        is not verified. :func:`check_certificate` checks its file; the explanation of certificates shows how to check it
-        without holdfast.
+        :class:`holdfast.certificates.StructuralZero`, :class:`holdfast.certificates.PathProof` or
+        :class:`holdfast.certificates.HoldProof`. The prover found it, but it is not verified. :func:`check_certificate` checks
+        its file; the explanation of certificates shows how to check it without holdfast.
 
     Raises:
         InputError: A number is out of range, or the box would take more than 2^24 cells.

@@ -47,8 +47,7 @@ class CertificateChain:
         frames, from_axis = [], np.eye(4)
         for joint in arm.joints:
             to_axis = np.eye(4)
-            perpendicular = np.linalg.svd(joint.axis[None])[2][1]
-            to_axis[:3, :3] = np.column_stack([perpendicular, np.cross(joint.axis, perpendicular), joint.axis])
+            to_axis[:3, :3] = rotation_to_axis(joint.axis)
             frames.append(from_axis @ joint.origin @ to_axis)
             from_axis = to_axis.T
         frames[0] = arm.base @ frames[0]
@@ -64,6 +63,12 @@ class CertificateChain:
             return None
         height = -(origin[:2] @ direction[:2]) / squared_sine
         return float(origin[2] + height * direction[2]), float(height)
+
+
+def rotation_to_axis(axis: FloatArray) -> FloatArray:
+    """Return the rotation (3, 3) from the frame of a joint in certificates, whose z axis is the joint's, to its own frame."""
+    perpendicular = np.linalg.svd(axis[None])[2][1]
+    return np.column_stack([perpendicular, np.cross(axis, perpendicular), axis])
 
 
 def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: BoolArray) -> FloatArray:

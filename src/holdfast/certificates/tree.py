@@ -164,7 +164,7 @@ def compute_depths(tokens: bytes) -> list[int]:
     return depths
 
 
-def compute_undecided_fraction(tokens: bytes) -> Fraction:
-    """Return the exact undecided fraction of a tree in pre-order."""
-    undecided = Counter(depth for token, depth in zip(tokens, compute_depths(tokens), strict=True) if token == UNDECIDED_TOKEN)
-    return sum((Fraction(count, 1 << depth) for depth, count in undecided.items()), Fraction(0))
+def compute_undecided_fraction(tokens: bytes, searched_token: int = UNDECIDED_TOKEN) -> Fraction:
+    """Return the exact undecided fraction of a tree in pre-order, or that of another token."""
+    counts = Counter(depth for token, depth in zip(tokens, compute_depths(tokens), strict=True) if token == searched_token)
+    return sum((Fraction(count, 1 << depth) for depth, count in counts.items()), Fraction(0))

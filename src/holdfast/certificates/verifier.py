@@ -4,10 +4,10 @@ The file contains a bisection tree, and for each leaf the data that make a proof
 joint whose lock reduces enough. The search that found them may be wrong. Here every leaf is proved again in ball arithmetic
 (doubles with bounds of their distance from the true numbers), from exact first and second derivatives and a bound of the third.
 The modules in the folder next to this file explain at their top what a leaf proves: ``targets`` (reached), ``distances`` (out
-of reach), ``bounds`` (ceilings and floors of relative manipulability), ``zeros`` (structural zeros), ``motions`` (paths).
-``files`` checks the form of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths`` read the cells, ``chain``
-encloses the arm and its target, ``taylor`` proves most leaves. These are 1,729 lines of code in all, without docstrings and
-comments; the explanation of certificates in the documentation lists those that have to be read for one claim.
+of reach), ``bounds`` (ceilings and floors of relative manipulability), ``holding`` (arms without power), ``zeros`` (structural
+zeros), ``motions`` (paths). ``files`` checks the form of the file, ``kinds`` lists the kinds of claims, ``tree`` and ``paths``
+read the cells, ``chain`` encloses the arm and its target, ``taylor`` proves most leaves. These are 1,843 lines of code in all,
+without docstrings and comments; the explanation of certificates in the documentation lists those to be read for one claim.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING or __package__:
-    from holdfast.certificates.verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
+    from holdfast.certificates.verifier_parts import balls, distances, files, forms, kinds, motions, paths, tree, zeros
 else:  # run as a file: the folder lies next to it
-    from verifier_parts import balls, bounds, distances, files, forms, kinds, motions, paths, tree, zeros
+    from verifier_parts import balls, distances, files, forms, kinds, motions, paths, tree, zeros
 
 CertificateRejected = forms.CertificateRejected
 require = forms.require
@@ -48,7 +48,7 @@ compute_covered_volume = tree.compute_covered_volume
 compute_disjoint_volume = tree.compute_disjoint_volume
 MAX_LEAVES = tree.MAX_LEAVES
 MAX_COVER_STEPS = tree.MAX_COVER_STEPS
-FIRST_LOCK_TOKEN = bounds.FIRST_LOCK_TOKEN
+FIRST_LOCK_TOKEN = tree.FIRST_LOCK_TOKEN
 FOR_PEOPLE = forms.FOR_PEOPLE
 CHUNK_LEAVES = 256
 
@@ -68,7 +68,7 @@ class CertificateVerdict:
     refuted: bool = False  # a configuration shows that the claim is false
     attained_bound: float = 0.0  # lower bound (for a floor, upper bound) of a value that occurs
     whichever: Fraction | None = None  # for a path: least fraction of the lock instants that is proved for all locks
-    false: Fraction = Fraction(0)  # for a path: fraction of the lock instants after which no motion finishes it
+    false: Fraction = Fraction(0)  # refuted fraction: of lock instants, or of a box of configurations that should hold
 
     @property
     def is_sampled(self) -> bool:
@@ -109,7 +109,7 @@ class CertificateVerdict:
         text += f", refuted: {forms.format_percent(self.false)}" * bool(self.false)
         text += f", undecided: {forms.format_percent(self.undecided, up=True)}"
         text += " of all pairs of target and configuration" * (kind == "refutation")
-        text += " of the lock instants" * (kind == "path")
+        text += " of the lock instants" * (kind == "path") + " of the box" * (kind == "hold")
         text += " in the worst part" * bool(self.parts)
         if kind in ("ceiling", "floor"):
             text += f" of the box; {witness_text}"
@@ -150,8 +150,9 @@ def _verify_leaf_tree(
         document["kind"],
     )
     count, undecided, leaves = claim_verifier.read_leaves(document)
-    undecided_volume = tree.compute_disjoint_volume(undecided)
-    volumes = {"proved": 1 - undecided_volume, "refuted": Fraction(0), "undecided": undecided_volume}
+    refuted_cells = claim_verifier.find_refuted_cells(leaves)
+    undecided_volume, false = (tree.compute_disjoint_volume(cells) for cells in (undecided, refuted_cells))
+    volumes = {"proved": 1 - undecided_volume - false, "refuted": false, "undecided": undecided_volume}
     volume_texts = {key: f"{part.numerator}/2^{part.denominator.bit_length() - 1}" for key, part in volumes.items()}
     require(document["volumes"] == volume_texts, "volumes are not those of the tree")
     lower, upper = claim_verifier.enclose_manipulability_at(document["found"]) if "found" in document else (0.0, 0.0)
@@ -166,6 +167,7 @@ def _verify_leaf_tree(
         document=document, leaves=count, accepted=checked - len(rejected), rejected=len(rejected), refuted=refuted,
         seconds=time.perf_counter() - started, undecided=tree.compute_disjoint_volume(undecided),
         attained_bound=lower if kind == "ceiling" else upper,
+        false=tree.compute_disjoint_volume(refuted_cells - {cell for cell, _ in rejected}),
         unproved_targets=frozenset(cell[claim_verifier.targets] for cell in undecided if claim_verifier.targets)
     )  # fmt: skip
 

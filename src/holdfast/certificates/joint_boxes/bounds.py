@@ -63,9 +63,8 @@ def prove_manipulability_bound(claim: BoundClaim, halvings: int, seed: int, budg
         bisection = bisect_box(test, claim.joint_box, halvings, budget)
     fields = {"tree": documents.compress_bytes(bisection.tree), "found": documents.encode_floats(extreme)}
     return ManipulabilityBound.from_search(
-        claim, fields, undecided=bisection.undecided, leaves=bisection.leaves, nodes=bisection.nodes,
-        finished=bisection.finished, seconds=perf_counter() - started, extreme=extreme, value=value,
-    )  # fmt: skip
+        claim, fields, bisection, seconds=perf_counter() - started, extreme=extreme, value=value
+    )
 
 
 def _maximization_sign(claim: BoundClaim) -> float:

@@ -20,7 +20,7 @@ from holdfast.certificates.tree import (
     compute_undecided_fraction,
     is_split,
 )
-from holdfast.certificates.verifier_parts.tree import MAX_LEAVES
+from holdfast.certificates.verifier_parts.tree import MAX_LEAVES, REFUTED_TOKEN
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 
@@ -48,7 +48,7 @@ class BoxBisection:
     Attributes:
         tree: Bisection tree, in which waiting boxes have DEFERRED_TOKEN.
         tested: Number of tested boxes.
-        proved, undecided: Proved and undecided fraction of the whole box.
+        proved, refuted, undecided: Proved, refuted and undecided fraction of the whole box.
     """
 
     def __init__(self, box: FloatArray, halvings: int, boxes: BoxBatch | None = None) -> None:
@@ -56,13 +56,13 @@ class BoxBisection:
         middle, depth = root_box(box) if boxes is None else boxes
         self.tree = BisectionTree(len(middle), DEFERRED_TOKEN)
         self._waiting: list[tuple[IndexArray, FloatArray, IndexArray]] = [(np.arange(len(middle)), middle, depth)]
-        self.tested, self.proved, self.undecided = 0, 0.0, 0.0
+        self.tested, self.proved, self.refuted, self.undecided = 0, 0.0, 0.0, 0.0
 
     @property
     def state(self) -> SearchState:
         """Progress, as fractions of the whole box."""
-        open_fraction = 1 - self.proved - self.undecided
-        return SearchState(proved=self.proved, undecided=self.undecided, open=open_fraction, nodes=self.tested)
+        fractions = {key: getattr(self, key) for key in ("proved", "refuted", "undecided")}
+        return SearchState(**fractions, open=1 - sum(fractions.values()), nodes=self.tested)
 
     def run(
         self,
@@ -90,7 +90,8 @@ class BoxBisection:
             is_decided, is_split = tokens != OPEN_TOKEN, axis >= 0
             self.tree.tokens[node_ids] = np.where(is_decided, tokens, UNDECIDED_TOKEN)
             fractions = 0.5 ** depth.sum(axis=1)
-            self.proved += float(fractions[is_decided].sum())
+            self.proved += float(fractions[is_decided & (tokens != REFUTED_TOKEN)].sum())
+            self.refuted += float(fractions[tokens == REFUTED_TOKEN].sum())
             self.undecided += float(fractions[~is_decided & ~is_split].sum())
             if is_split.any():
                 axes, rows = np.repeat(axis[is_split], 2), np.arange(2 * is_split.sum())

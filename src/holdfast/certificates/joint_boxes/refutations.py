@@ -42,9 +42,8 @@ def prove_out_of_reach(claim: OutOfReachClaim, halvings: int, seed: int, budget:
     started = perf_counter()
     exclusion = search_witness_or_exclusion(claim, halvings, seed, budget)
     return Refutation.from_search(
-        claim, encode_exclusion(exclusion), undecided=exclusion.undecided, leaves=exclusion.leaves, nodes=exclusion.nodes,
-        finished=exclusion.finished, seconds=perf_counter() - started, witness=exclusion.witness,
-    )  # fmt: skip
+        claim, encode_exclusion(exclusion), exclusion, seconds=perf_counter() - started, witness=exclusion.witness
+    )
 
 
 def encode_exclusion(exclusion: Exclusion) -> dict[str, Any]:

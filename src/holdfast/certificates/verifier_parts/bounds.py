@@ -31,13 +31,12 @@ from .balls import (
     solve_or_nan,
     stack_second,
 )
-from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration
-from .forms import NUMBER_PATTERN, TEXT_PATTERN, decompress_payload, format_intervals, parse_hex, require, require_revolute
+from .chain import BallChain, Leaf, LeafVerifier, enclose_configuration, read_bisection
+from .forms import NUMBER_PATTERN, TEXT_PATTERN, format_intervals, parse_hex, require, require_revolute
 from .taylor import DerivativeEnclosure
-from .tree import MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
+from .tree import FIRST_LOCK_TOKEN, Cell
 
 SCREW_ROWS = {"pose": [0, 1, 2, 3, 4, 5], "planar-pose": [2, 3, 4]}  # rows of a screw in the task
-FIRST_LOCK_TOKEN = 128  # token in a ceiling of a leaf that a lock of the first joint proves; 2 is undecided
 
 
 class ScrewEnclosure:
@@ -96,17 +95,8 @@ class CeilingVerifier(LeafVerifier):
 
     def read_leaves(self, document: dict[str, Any]) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
         """Return the number of leaves, the undecided cells, and an iterator of leaves with their joint (0 for a floor)."""
-        tree, n = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree"), self.arm.n
-        valid_tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
-        is_valid = set(tree) <= valid_tokens | {2, *range(SPLIT_TOKEN, SPLIT_TOKEN + n)}
-        require(is_valid, "a token of the tree is unknown, or not among the locks")
-        undecided = [cell for token, cell in iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN) if token == 2]
-
-        def iterate_leaves() -> Iterator[Leaf]:
-            cells = iterate_cells(tree, n, 2, FIRST_LOCK_TOKEN)
-            return ((cell, max(token - FIRST_LOCK_TOKEN, 0)) for token, cell in cells if token != 2)
-
-        return sum(tree.count(token) for token in valid_tokens), undecided, iterate_leaves
+        tokens = {FIRST_LOCK_TOKEN + lock for lock in self.locks} if document["kind"] == "ceiling" else {0}
+        return read_bisection(document, self.arm.n, tokens)
 
     def verify_leaves(self, kind: int, leaves: list[Leaf]) -> Flags:
         """Return a mask of the leaves in which a lock of joint ``kind`` reduces relative manipulability enough."""

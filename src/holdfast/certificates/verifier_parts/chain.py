@@ -7,7 +7,7 @@ arm reaches all targets of a box if its tool can follow the tool of this chain f
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from .balls import ROUND_UP, Array, BallArray, cross_matrix, einsum, flint, round_up, stack_second
-from .forms import parse_hex, require
-from .tree import Cell
+from .forms import decompress_payload, parse_hex, require
+from .tree import FIRST_LOCK_TOKEN, MAX_LEAVES, SPLIT_TOKEN, Cell, iterate_cells
 
 Leaf = tuple[Cell, Any]  # a cell, and the data of its proof
 IDENTITY_HEX = [float(k % 4 == 0).hex() for k in range(9)]
@@ -144,6 +144,25 @@ class BallChain:
         return np.asarray(terms.sum(axis=1) * ROUND_UP)
 
 
+def read_bisection(
+    document: dict[str, Any], axes: int, leaf_tokens: Collection[int]
+) -> tuple[int, list[Cell], Callable[[], Iterator[Leaf]]]:
+    """Return the number of leaves of a tree, its undecided cells, and an iterator of its leaves with their numbers.
+
+    The number is 0, or for tokens from ``FIRST_LOCK_TOKEN`` on their distance from it.
+    """
+    tree = decompress_payload(document["tree"], 2 * MAX_LEAVES - 1, "tree")
+    is_valid = set(tree) <= {2, *leaf_tokens, *range(SPLIT_TOKEN, SPLIT_TOKEN + axes)}
+    require(is_valid, "a token of the tree is unknown, or not among the locks")
+    undecided = [cell for token, cell in iterate_cells(tree, axes, 2, FIRST_LOCK_TOKEN) if token == 2]
+
+    def iterate_leaves() -> Iterator[Leaf]:
+        cells = iterate_cells(tree, axes, 2, FIRST_LOCK_TOKEN)
+        return ((cell, max(token - FIRST_LOCK_TOKEN, 0)) for token, cell in cells if token != 2)
+
+    return sum(tree.count(token) for token in leaf_tokens), undecided, iterate_leaves
+
+
 class LeafVerifier:
     """Verifier of the leaves of a tree over a root box."""
 
@@ -169,6 +188,10 @@ class LeafVerifier:
     def find_unproved_cells(self, rejected: list[Leaf], leaves: Callable[[], Iterator[Leaf]]) -> list[Cell]:
         """Return the cells of the root box that rejected leaves leave unproved."""
         return [cell for cell, _ in rejected]
+
+    def find_refuted_cells(self, leaves: Callable[[], Iterator[Leaf]]) -> set[Cell]:
+        """Return the cells in which the claim is false."""
+        return set()
 
     def check_leaves(self, chunk: list[Leaf]) -> tuple[int, list[Leaf]]:
         """Check leaves, and return their number and the leaves that prove nothing."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from .bounds import CeilingVerifier, FloorVerifier, bound_claim_schema, describe_bound
 from .distances import RefutationVerifier, refutation_schema
+from .holding import HoldVerifier, describe_hold, hold_claim_schema
 from .paths import describe_path, path_claim_schema
 from .targets import ReachVerifier, bundle_claim_schema, describe_targets, reach_claim_schema
 from .zeros import StructuralZeroVerifier, describe_structural_zero, structural_zero_schema
@@ -34,6 +35,8 @@ CERTIFICATE_KINDS = {
     "ceiling": CertificateKind(bound_claim_schema, describe_bound, CeilingVerifier),
     "floor": CertificateKind(bound_claim_schema, describe_bound, FloorVerifier),
     "structural-zero": CertificateKind(structural_zero_schema, describe_structural_zero, StructuralZeroVerifier),
+    "hold": CertificateKind(hold_claim_schema, describe_hold, HoldVerifier),
+    "nudge": CertificateKind(hold_claim_schema, describe_hold, HoldVerifier),
     "path": CertificateKind(path_claim_schema, describe_path),
 }
 

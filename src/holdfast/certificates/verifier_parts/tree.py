@@ -13,6 +13,8 @@ MAX_LEAVES = 1 << 24
 MAX_DEPTH = 200
 MAX_COVER_STEPS = 1_000_000  # steps to compute the volume that overlapping cells cover
 PROVED_TOKEN = 0  # token 2 marks undecided cells
+FIRST_LOCK_TOKEN = 128  # token in a ceiling of a leaf that a lock of the first joint proves
+REFUTED_TOKEN = 255  # token in a hold claim of a cell in which some joint moves
 SPLIT_TOKEN = 16  # token 1, refuted, counts as undecided, too, because a reach of version 1 contains no refutations
 
 

@@ -9,14 +9,19 @@ from holdfast.certificates.proof import BisectionResult
 from holdfast.interface.presentation.certificates.verification import UNVERIFIED_NOTE, build_entries
 from holdfast.interface.presentation.presentation import Fact, Presentation
 
+_FRACTION_KEYS = ("proved", "refuted", "undecided")
+_VALUE_LABELS = {"energy": ("kinetic energy of the nudge", "J"), "drop_at_most": ("largest drop of the tool point", "m")}
+
 
 def to_dict(proof: BisectionResult) -> dict[str, Any]:
-    """Return the claim, its fractions as exact rationals and as numbers, cell counts, and seconds."""
-    return build_entries(proof)
+    """Return the claim, its fractions as exact rationals and as numbers, numbers of its kind, cell counts, and seconds."""
+    entries = {key: getattr(proof, key) for key in ("energy", "lower", "upper", "drop_at_most") if hasattr(proof, key)}
+    return build_entries(proof, [key for key in _FRACTION_KEYS if hasattr(proof, key)], **entries)
 
 
 def present(proof: BisectionResult) -> Presentation:
     """Present the claim with the proved fraction."""
     answer = verifier.qualify_claim(proof.document["claim"], proof.proved)
-    facts = [Fact(name, float(getattr(proof, name)), style="percent") for name in ("proved", "undecided")]
+    facts = [Fact(key, float(getattr(proof, key)), style="percent") for key in _FRACTION_KEYS if hasattr(proof, key)]
+    facts += [Fact(label, getattr(proof, key), unit) for key, (label, unit) in _VALUE_LABELS.items() if hasattr(proof, key)]
     return Presentation("Proof", answer, lines=[UNVERIFIED_NOTE], facts=facts)
