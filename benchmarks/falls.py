@@ -42,7 +42,7 @@ def holdfast(friction: FrictionNumbers, stops: bool, step: float, threads: int =
         return hf.power_loss(arm, q, friction=model, stops=stops, duration=TIMES[-1], step=step).tool_at(TIMES)
 
     zero = np.zeros(panda.N)
-    conditions = {**model.per_joint(arm), "brake_torque": zero, "brake_damping": zero, "brake_time": falls.never()}
+    conditions = {**vars(model.of_joints(arm)), "brake_torque": zero, "brake_damping": zero, "brake_time": falls.never()}
     simulator = falls.FallSimulator(arm, stops, {**conditions, "restitution": 0.0, "free": np.ones(panda.N)})
 
     def run(q: Array) -> Array:

@@ -298,6 +298,26 @@ def test_accuracy_halves_the_step_where_it_must(panda):
     assert hopeless.step == pytest.approx(8e-3 / 64)
 
 
+def test_falls_end_where_a_joint_stops_beside_its_stop(panda):
+    """The steps of these falls once became ever shorter; 1 fall in 10,000 is like them."""
+    rows = [
+        [-2.07932676, -0.02085436, -2.15103158, -0.64405455, 1.74357031, 0.09243751, -1.79590587],
+        [1.03287301, -0.68334807, -2.49195023, -2.4300044, 1.46094874, 0.94323358, 0.62050673],
+        [1.67830425, -0.25566808, 0.14150674, -0.59716354, 1.88880766, 3.45702433, -2.61340984],
+    ]
+    friction = hf.Friction(coulomb=[0.5] * 4 + [0.3] * 3, viscous=0.1)
+    fall = hf.power_loss(panda, rows, friction=friction, duration=1.0, step=4e-3).require_ok()
+    assert np.isfinite(fall.error).all()
+    assert (fall.residual == 0).all()
+
+
+def test_held_joints_stay_where_they_are_also_outside_their_limits(panda):
+    q = np.array([0.0, 0.1, 0.0, panda.upper[3] + 0.1, 0.0, 1.0, 0.0])
+    fall = hf.power_loss(panda, q, free=[1], friction=hf.Friction(coulomb=0.1), duration=0.1)
+    assert (np.delete(fall.q_final, 1) == np.delete(q, 1)).all()
+    assert fall.q_final[1] != q[1]
+
+
 def test_an_empty_batch_has_empty_results(panda):
     fall = hf.power_loss(panda, np.empty((0, 7)), duration=0.1)
     assert fall.drop.shape == (0,)
