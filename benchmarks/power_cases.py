@@ -20,14 +20,11 @@ STOWED = [0.0, 0.0, 0.0, 1.45, 0.0, 0.0]
 def lowest_points(arm: hf.Arm, q: Array) -> Array:
     """(N,) height of the lowest point of the capsules of all moving links but the first, m."""
     capsules = hf.Clearance(arm).capsules
-    frames = arm.frames(q)
-    heights = []
+    frames, heights = arm.frames(q), []
     for part in capsules.parts:
         if part.link > 0:
-            for point in (part.start, part.end):
-                heights.append(
-                    frames[:, part.link + 1, 2, :3] @ np.asarray(point) + frames[:, part.link + 1, 2, 3] - part.radius
-                )
+            upwards, height = frames[:, part.link + 1, 2, :3], frames[:, part.link + 1, 2, 3]
+            heights += [upwards @ np.asarray(point) + height - part.radius for point in (part.start, part.end)]
     return np.min(heights, axis=0)
 
 
@@ -52,7 +49,7 @@ def holding_fraction(name: str, coulomb: float, samples: int) -> float:
 
 
 def drop_errors(name: str, friction: hf.Friction, samples: int, time: float) -> tuple[float, float, float]:
-    """Median and 90 % quantile of the relative error of alpha t^2/2, and its rank correlation with the simulated displacement."""
+    """Median and 90 % quantile of the relative error of alpha t^2/2, and its rank correlation with the simulation."""
     from scipy.stats import spearmanr
 
     arm = hf.arms.load(name)
@@ -67,12 +64,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--samples", type=int, default=20_000)
     samples = parser.parse_args().samples
-    print("### W20: power losses of open arms (simulated)\n\n| case | published or specified | holdfast |\n| --- | --- | --- |")
+    print("### W21: power losses of open arms (simulated)\n\n| case | specification | holdfast |\n| --- | --- | --- |")
     for coulomb in (0.0, 0.1, 0.3, 1.0):
         drop, contact, speed = fall_to_table(PARK, coulomb)
         print(
-            f"| YAM, park pose, Coulomb friction {coulomb:g} N m, until a link meets the base plane | 343 to 348 mm; about 40 cm "
-            f"observed | {1e3 * drop:.0f} mm after {contact:.3f} s, tool at {speed:.1f} m/s downwards |"
+            f"| YAM, park pose, Coulomb friction {coulomb:g} N m, until a link meets the base plane | 343 to 348 mm; about "
+            f"40 cm observed | {1e3 * drop:.0f} mm after {contact:.3f} s, tool at {speed:.1f} m/s downwards |"
         )
     for title, pose, expected in (("folded on its stops", STOWED, 0), ("zero pose", [0.0] * 6, 115)):
         drop = fall_to_table(pose, 0.1)[0]

@@ -2,10 +2,10 @@
 
 Usage: python -m tools.mjcf_to_urdf IN.xml OUT.urdf NAME BASE TIP LICENCE [BODY | JOINT=EFFORT,VELOCITY ...]
 
-The file has the joints with their limits, efforts, viscous and Coulomb friction, and the inertials, but no armatures and meshes;
-`builtin.py` adds armatures. Each JOINT gets this effort, N m, and velocity, rad/s; ``inf`` means unknown. Each BODY is left out,
-with all that it carries. A TIP such as site=0,0,0.1 moves this site in its body first, m. All geoms of group 3 count as collision
-geoms, also where the file lets them collide with nothing. Prints the SHA-256 of both files.
+The file has the joints with their limits, efforts, viscous and Coulomb friction, and the inertials, but no armatures and no
+meshes; `builtin.py` adds armatures. Each JOINT gets this effort, N m, and velocity, rad/s; ``inf`` means unknown. Each BODY is
+left out, with all that it carries. A TIP such as site=0,0,0.1 moves this site in its body first, m. All geoms of group 3 count
+as collision geoms, also where the file lets them collide with nothing. Prints the SHA-256 of both files.
 """
 
 from __future__ import annotations
