@@ -42,7 +42,7 @@ REST_RATE = 1e-9  # rad/s or m/s: a slower joint does not hit a stop, it lies ag
 RATE_ROUNDING = 1e-12  # rad/s or m/s
 TRIES_TOGETHER = 12  # corrections of the set that may change all joints; later corrections change one joint each
 MOST_TRIES = 60
-STEPS_PER_CALL = 1
+STEPS_PER_CALL = 2  # the loop around a call takes a fifth of the time of one step
 
 # Modes of a joint at rest or at a stop; only MODE_STOPPING also belongs to moving joints. The mode of a joint that breaks loose
 # or slides has the sign of its motion.
