@@ -169,7 +169,7 @@ def test_iiwa_is_the_14() -> None:
 
 
 def test_small_open_arms_reach_where_they_are_known_to() -> None:
-    """YAM: its park pose, 393 mm above the base. SO-101 straight out. OpenArm: hangs down from its stand at 0.698 m."""
+    """YAM: its park pose, 393 mm above the base. SO-101 straight out. OpenArm: hangs down from its pedestal at 0.698 m."""
     yam = arms.load("yam")
     np.testing.assert_allclose(yam.forward_kinematics(arms.about("yam").home)[2, 3], 0.393, atol=5e-4)
     assert [joint.armature for joint in yam.joints] == [0.032] * 3 + [0.0018] * 3

@@ -127,7 +127,7 @@ def test_two_full_turns_are_plausible() -> None:
     assert check_arm(arm(replace(JOINT, lower=-6.28318530718, upper=6.28318530718))) == []
 
 
-SOUND = [name for name in arms.names() if not name.startswith("pa10")]
+SOUND = [each for each in arms.names() if not each.startswith("pa10")]
 
 
 @pytest.mark.parametrize("name", arms.names())

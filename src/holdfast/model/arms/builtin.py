@@ -206,7 +206,7 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             "base",
             "tool",
             _to_radians((0, -40, 0, 90, 0, 0, 40)),
-            "OpenArm 1.0 with gripper, the left arm on its stand",
+            "OpenArm 1.0 with gripper, the left arm on its pedestal",
             ", collision meshes as capsules; its rotor inertias (1 kg m2) and efforts are placeholders, and left out",
         ),
     ]
