@@ -86,20 +86,22 @@ def number(x: float) -> str:
     return f"{x:.0f}" if abs(x) >= 100 else f"{x:.3g}"
 
 
-def seconds(call: Callable[[], object]) -> float:
-    start = time.perf_counter()
+def seconds(call: Callable[[], object], clock: Callable[[], float] = time.perf_counter) -> float:
+    start = clock()
     call()
-    return time.perf_counter() - start
+    return clock() - start
 
 
-def alternate(first: Callable[[], object], second: Callable[[], object], rounds: int) -> tuple[list[float], list[float]]:
+def alternate(
+    first: Callable[[], object], second: Callable[[], object], rounds: int, clock: Callable[[], float] = time.perf_counter
+) -> tuple[list[float], list[float]]:
     """Seconds of both, measured one after the other ``rounds`` times, so that a busy moment hits both; each warmed up."""
     first()
     second()
     times: tuple[list[float], list[float]] = ([], [])
     for _ in range(rounds):
-        times[0].append(seconds(first))
-        times[1].append(seconds(second))
+        times[0].append(seconds(first, clock))
+        times[1].append(seconds(second, clock))
     return times
 
 

@@ -15,6 +15,9 @@ import dynamics
 import holdfast as hf
 
 TINY = 1e-10
+# Without these two, rebounds from a stop and restarts beside it follow each other in ever shorter times, without an end.
+SLOWEST_REBOUND = 1e-5  # rad/s or m/s
+BESIDE_STOP = 1e-10  # rad or m
 
 
 class Reference:
@@ -93,7 +96,7 @@ class Reference:
         m = self.inertia(q)
         side = np.where(q <= self.lower, 1.0, 0.0) - np.where(q >= self.upper, 1.0, 0.0)
         touching = np.flatnonzero(side)
-        least = np.where(side * v < 0, -self.restitution * v, 0.0)
+        least = np.where(side * v < -SLOWEST_REBOUND, -self.restitution * v, 0.0)
         best, found = np.inf, v
         for choice in product((False, True), repeat=len(touching)):
             fixed = np.zeros(self.n, dtype=bool)
@@ -115,6 +118,7 @@ class Reference:
         self.braked = self.brake_time <= 0
         for until in sorted({*times, *([self.brake_time] if self.brake_time < max(times) else [])}):
             while t < until:
+                q = np.where(q < self.lower + BESIDE_STOP, self.lower, np.where(q > self.upper - BESIDE_STOP, self.upper, q))
                 v = self.impact(q, v)
                 v[np.abs(v) < TINY] = 0.0
                 sign = self.choose_signs(q, v, loosened)

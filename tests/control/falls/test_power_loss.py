@@ -256,6 +256,47 @@ def test_nothing_moves_within_the_inequalities_of_statics(panda):
     assert (fall.rest_time[holds] == 0).all()
 
 
+def test_what_holds_does_not_fall_and_everything_else_does(panda):
+    """No contradiction where the margin is not rounding; every fourth joint is at a limit."""
+    rng = np.random.default_rng(8)
+    rows = panda_rows(panda, rng, 3_000)
+    draw = rng.random(rows.shape)
+    rows = np.where(draw < 0.12, panda.lower, np.where(draw > 0.88, panda.upper, rows))
+    friction = hf.Friction(coulomb=[0.5, 40.0, 8.0, 16.0, 1.5, 1.5, 0.2], load=0.1)
+    check = hf.holds(panda, rows, friction=friction)
+    fall = hf.power_loss(panda, rows, friction=friction, duration=0.01)
+    clear = np.abs(check.margin) > 1e-6
+    moved = (fall.q_final != rows).any(axis=1)
+    assert clear.sum() > 2_900
+    assert 0.1 < check.holds.mean() < 0.9
+    np.testing.assert_array_equal(moved[clear], ~check.holds[clear])
+    np.testing.assert_array_equal((fall.outcome == "holds")[clear], check.holds[clear])
+
+
+def test_the_error_covers_the_true_error_and_the_orders_are_two_and_four(panda):
+    rows = panda_rows(panda, np.random.default_rng(9), 150)
+    friction = hf.Friction(coulomb=[0.5] * 4 + [0.3] * 3, viscous=0.1)
+    medians = {}
+    for stops, model, fine, steps in ((True, friction, 2.5e-4, (8e-3, 4e-3)), (False, FREE, 6.25e-4, (1e-2, 5e-3))):
+        true = hf.power_loss(panda, rows, friction=model, stops=stops, duration=0.3, step=fine).tool_at(0.3)
+        for step in steps:
+            fall = hf.power_loss(panda, rows, friction=model, stops=stops, duration=0.3, step=step)
+            distance = np.linalg.norm(fall.tool_at(0.3) - true, axis=1)
+            medians[stops, step] = np.median(distance)
+            assert np.mean(fall.error >= distance) >= 0.9
+            assert (fall.residual == 0).all()
+    assert medians[True, 8e-3] > 2.5 * medians[True, 4e-3]
+    assert medians[False, 1e-2] > 12 * medians[False, 5e-3]
+
+
+def test_the_first_hundred_milliseconds_are_the_closed_form(panda):
+    rows = panda_rows(panda, np.random.default_rng(10), 1_000)
+    fall = hf.power_loss(panda, rows, friction=FREE, stops=False, duration=0.1)
+    closed_form = hf.susceptibility.tool_drop(panda)(rows) * 0.1**2 / 2
+    drop = fall.drop_at(0.1)
+    assert np.median(np.abs(closed_form - drop) / np.abs(drop)) <= 0.02
+
+
 def test_accuracy_halves_the_step_where_it_must(panda):
     rows = panda_rows(panda, np.random.default_rng(7), 5)
     friction = hf.Friction(coulomb=0.3, viscous=0.1)
@@ -267,6 +308,26 @@ def test_accuracy_halves_the_step_where_it_must(panda):
     hopeless = hf.power_loss(panda, rows[0], friction=friction, duration=0.1, step=8e-3, accuracy=1e-15)
     assert hopeless.status == hf.Status.INACCURATE
     assert hopeless.step == pytest.approx(8e-3 / 64)
+
+
+def test_falls_end_where_a_joint_stops_beside_its_stop(panda):
+    """The steps of these falls once became ever shorter; 1 fall in 10,000 is like them."""
+    rows = [
+        [-2.07932676, -0.02085436, -2.15103158, -0.64405455, 1.74357031, 0.09243751, -1.79590587],
+        [1.03287301, -0.68334807, -2.49195023, -2.4300044, 1.46094874, 0.94323358, 0.62050673],
+        [1.67830425, -0.25566808, 0.14150674, -0.59716354, 1.88880766, 3.45702433, -2.61340984],
+    ]
+    friction = hf.Friction(coulomb=[0.5] * 4 + [0.3] * 3, viscous=0.1)
+    fall = hf.power_loss(panda, rows, friction=friction, duration=1.0, step=4e-3).require_ok()
+    assert np.isfinite(fall.error).all()
+    assert (fall.residual == 0).all()
+
+
+def test_held_joints_stay_where_they_are_also_outside_their_limits(panda):
+    q = np.array([0.0, 0.1, 0.0, panda.upper[3] + 0.1, 0.0, 1.0, 0.0])
+    fall = hf.power_loss(panda, q, free=[1], friction=hf.Friction(coulomb=0.1), duration=0.1)
+    assert (np.delete(fall.q_final, 1) == np.delete(q, 1)).all()
+    assert fall.q_final[1] != q[1]
 
 
 def test_an_empty_batch_has_empty_results(panda):

@@ -219,7 +219,7 @@ def test_assess_condition_numbers_ask_for_at_most(ask):
 
 @pytest.mark.parametrize("name", [n for n in arms.names() if n != "planar-2r"])
 def test_assess_has_a_region_for_every_built_in_arm(name, ask):
-    six = name in ("ur5", "kinova-j2s6s200")
+    six = name in ("ur5", "kinova-j2s6s200", "yam")
     data = ask("assess", name, "--poses", 64, "--restarts", 10, *(["--task", "position"] if six else []))
     assert data["reached"] > 0
     assert data["task"] == ("position" if six else arms.about(name).task)

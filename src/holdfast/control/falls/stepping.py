@@ -42,7 +42,7 @@ REST_RATE = 1e-9  # rad/s or m/s: a slower joint does not hit a stop, it lies ag
 RATE_ROUNDING = 1e-12  # rad/s or m/s
 TRIES_TOGETHER = 12  # corrections of the set that may change all joints; later corrections change one joint each
 MOST_TRIES = 60
-STEPS_PER_CALL = 1
+STEPS_PER_CALL = 2  # the loop around a call takes a fifth of the time of one step
 
 # Modes of a joint at rest or at a stop; only MODE_STOPPING also belongs to moving joints. The mode of a joint that breaks loose
 # or slides has the sign of its motion.
@@ -203,8 +203,9 @@ class DryFrictionStepper(PassiveArm):
         """
         q, rates, mode, h = parts["q"], parts["rates"], parts["mode"], conditions.h
         end = q + h / 2 * (rates + solution.rates)
-        to_lower = _crossing_fraction(q - self.lower, end - self.lower, h * rates, h / 2 * (solution.rates - rates))
-        to_upper = _crossing_fraction(self.upper - q, self.upper - end, -h * rates, h / 2 * (rates - solution.rates))
+        first, second, free = h * rates, h / 2 * (solution.rates - rates), self.symbols["free"]
+        to_lower = _crossing_fraction(q - self.lower, end - self.lower, first, second, free)
+        to_upper = _crossing_fraction(self.upper - q, self.upper - end, -first, -second, free)
         is_stopping = ca.logic_and(solution.is_active, ca.logic_and(conditions.is_moving, conditions.sliding_friction > 0))
         is_stopping = ca.logic_and(is_stopping, solution.direction * solution.rates < -RATE_ROUNDING)
         to_rest = ca.if_else(is_stopping, rates / ca.if_else(is_stopping, rates - solution.rates, 1.0), 1.0)
@@ -221,9 +222,11 @@ class DryFrictionStepper(PassiveArm):
         after = ca.if_else(is_rounding, 0.0, solution.rates)
         q = parts["q"] + h / 2 * (parts["rates"] + after)
         for limit, outwards in ((self.lower, -1.0), (self.upper, 1.0)):
-            arrives = ca.logic_and(outwards * (q - limit) >= -STOP_TOLERANCE, outwards * after > 0)
+            # Also a joint that ceases to move beside its stop: else each step would be cut where it could reach the stop.
+            arrives = ca.logic_and(outwards * (q - limit) >= -STOP_TOLERANCE, outwards * after >= 0)
             arrives = ca.logic_and(arrives, ca.logic_not(conditions.is_impact))
-            q = ca.if_else(ca.logic_or(arrives, outwards * (q - limit) > 0), limit, q)
+            is_there = ca.logic_and(self.symbols["free"], ca.logic_or(arrives, outwards * (q - limit) > 0))
+            q = ca.if_else(is_there, limit, q)
             after = ca.if_else(ca.logic_and(arrives, outwards * after <= REST_RATE), 0.0, after)
         is_step = h > 0
         acceleration = ca.if_else(ca.logic_and(is_step, after != 0), solution.change / ca.if_else(is_step, h, 1.0), 0.0)
@@ -245,9 +248,9 @@ class DryFrictionStepper(PassiveArm):
         return choose_parts(is_at_rest, {**parts, "code": ca.SX(STATE_AT_REST)}, moved)
 
 
-def _crossing_fraction(start: SX, end: SX, first: SX, second: SX) -> SX:
-    """Return the first x in (0, 1) at which ``start + first x + second x^2`` falls through 0; 1 if ``end`` is not below 0."""
-    crosses = end < -STOP_TOLERANCE
+def _crossing_fraction(start: SX, end: SX, first: SX, second: SX, is_free: SX) -> SX:
+    """Return the first x in (0, 1) at which ``start + first x + second x^2`` of a free joint falls through 0; 1 without it."""
+    crosses = ca.logic_and(is_free, end < -STOP_TOLERANCE)
     root = ca.sqrt(ca.if_else(crosses, elementwise_max(first * first - 4 * second * start, 0.0), 1.0))
     is_leaving = first > 0
     leaving = -(first + root) / ca.if_else(ca.logic_and(crosses, is_leaving), 2 * second, 1.0)

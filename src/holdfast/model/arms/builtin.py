@@ -32,7 +32,7 @@ class Builtin:
         source: Origin of the numbers, and assumptions.
         licence: SPDX identifier of the file; ``MIT``, holdfast's own, for arms in code.
         home: (n,) configuration inside the limits and away from singularities, rad or m.
-        task: Default task of the arm, ``pose`` or ``planar``; see :func:`holdfast.model.arm.as_task`.
+        task: Default task of the arm, ``pose``, ``position`` or ``planar``; see :func:`holdfast.model.arm.as_task`.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Builtin:
     source: str
     licence: str
     home: tuple[float, ...]
-    task: Literal["pose", "planar"] = "pose"
+    task: Literal["pose", "position", "planar"] = "pose"
 
 
 def names() -> list[str]:
@@ -97,7 +97,14 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
         ), make
 
     def make_file_entry(
-        name: str, base: str, tip: str, home: tuple[float, ...], summary: str, remark: str = ""
+        name: str,
+        base: str,
+        tip: str,
+        home: tuple[float, ...],
+        summary: str,
+        remark: str = "",
+        task: Literal["pose", "position"] = "pose",
+        armature: tuple[float, ...] = (),
     ) -> tuple[Builtin, Callable[[], Arm]]:
         origin = origins[name]
         source = (
@@ -105,8 +112,8 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             f"inertials and joints{remark}"
         )
         return Builtin(
-            name=name, n=len(home), summary=summary, source=source, licence=origin["licence"], home=home
-        ), lambda: _load_data_file(origin["file"], base, tip)
+            name=name, n=len(home), summary=summary, source=source, licence=origin["licence"], home=home, task=task
+        ), lambda: _load_data_file(origin["file"], base, tip, armature)
 
     rod_source = (
         "textbook arm: links of 1 m and 1 kg, uniform thin rods (inertia m l^2/12 about the two axes across the rod, 0 about "
@@ -175,6 +182,33 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             _to_radians((275, 165, 60, 240, 85, 75)),
             "Kinova Jaco 2 (j2s6s200), three joints without limits, not redundant",
         ),
+        make_file_entry(
+            "yam",
+            "base",
+            "tool",
+            (0.0, 1.047, 1.047, 0.0, 0.0, 0.0),
+            "I2RT YAM with gripper, parked as after its start, not redundant",
+            ", collision geoms as capsules, without the camera; rotor inertias are those of its motors",
+            armature=(0.032, 0.032, 0.032, 0.0018, 0.0018, 0.0018),
+        ),
+        make_file_entry(
+            "so101",
+            "base",
+            "tool",
+            _to_radians((0, 25, -30, 85, 0)),
+            "SO-101 with gripper, redundant for positions",
+            ", collision meshes as capsules",
+            task="position",
+            armature=(0.028,) * 5,
+        ),
+        make_file_entry(
+            "openarm",
+            "base",
+            "tool",
+            _to_radians((0, -40, 0, 90, 0, 0, 40)),
+            "OpenArm 1.0 with gripper, the left arm on its pedestal",
+            ", collision meshes as capsules; its rotor inertias (1 kg m2) and efforts are placeholders, and left out",
+        ),
     ]
     return {entry.name: (entry, make) for entry, make in entries}
 
@@ -183,9 +217,13 @@ def _to_radians(degrees: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(np.deg2rad(degrees).tolist())
 
 
-def _load_data_file(file: str, base: str, tip: str) -> Arm:
+def _load_data_file(file: str, base: str, tip: str, armature: tuple[float, ...] = ()) -> Arm:
     with resources.as_file(DATA_FOLDER.joinpath(file)) as path:
-        return Arm.from_urdf(path, base, tip)
+        arm = Arm.from_urdf(path, base, tip)
+    if not armature:
+        return arm
+    pairs = zip(arm.joints, armature, strict=True)
+    return replace(arm, joints=tuple(replace(joint, armature=value) for joint, value in pairs))
 
 
 def _planar_arm(n: int) -> Arm:
