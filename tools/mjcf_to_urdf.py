@@ -44,9 +44,8 @@ def load(source: Path, base: str, tip: str, without: list[str]) -> tuple[hf.Arm,
         elif geom.group == COLLISION_GROUP:
             geom.contype = geom.conaffinity = 1
     with TemporaryDirectory() as folder:
-        file = Path(folder) / "arm.xml"
-        spec.compile()
-        file.write_text(spec.to_xml())
+        file = Path(folder) / "arm.mjb"  # an XML file would have six digits
+        mujoco.mj_saveModel(spec.compile(), str(file))
         arm = hf.Arm.from_mjcf(file, base=base, tip=tip)
         rows, mean, largest = fit_capsules(CollisionModel.from_arm(arm), MAX_MEAN_EXCESS_M)
     print(f"{len(rows)} capsules, {1e3 * mean:.0f} mm beyond the hulls on average, {1e3 * largest:.0f} mm at most")
