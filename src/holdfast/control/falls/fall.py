@@ -46,8 +46,8 @@ _OUTCOME_NAMES = np.array([outcome.name.lower() for outcome in FallOutcome])
 class PowerLoss(Result):
     """Falls of an arm of which some or all joints lost their torque, from N states; for a single state arrays lack the axis N.
 
-    All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. A
-    fall with a contact ends there, so all values at the end are those at the contact, and ``drop`` is a lower bound.
+    All joints in ``free`` move under gravity, inertia, friction, stops, and brakes; all others are held exactly. A fall
+    with a contact ends there, so its values at the end are those at the contact, and its ``drop`` is a lower bound.
 
     Attributes:
         arm: The arm.
