@@ -100,6 +100,7 @@ from holdfast.response.recovery import explain_ik as explain_ik
 from holdfast.response.recovery import recover as recover
 from holdfast.response.stowing import StowPath as StowPath
 from holdfast.response.stowing import StowPose as StowPose
+from holdfast.response.stowing import plan_stow_path as plan_stow_path
 from holdfast.response.stowing import stow as stow
 from holdfast.response.supervisor import FaultRun as FaultRun
 from holdfast.response.supervisor import simulate_faults as simulate_faults

@@ -31,7 +31,7 @@ def motion(arm, rng, count=15):
 
 def test_every_instant_is_a_fall_with_the_rates_of_the_motion(panda, rng):
     time, q, rates = motion(panda, rng)
-    curve = hf.power_loss_along(panda, q, time, rates, refine=False, **SHORT)
+    curve = hf.power_loss_along(panda, q, time, rates=rates, refine=False, **SHORT)
     falls = hf.power_loss(panda, q, rates, **SHORT)
     np.testing.assert_array_equal(curve.drop, falls.drop)
     np.testing.assert_array_equal(curve.time, time)
@@ -56,7 +56,7 @@ def test_instants_are_added_only_where_the_drop_changes(rng):
     arm = pendulum(lower=-1.5, upper=1.5)
     time = np.linspace(0, 1, 6)
     q, rates = np.array([-1.5, -1.5, -1.5, 1.2, 1.2, 1.2])[:, None], np.zeros((6, 1))
-    curve = hf.power_loss_along(arm, q, time, rates, friction=FREE)
+    curve = hf.power_loss_along(arm, q, time, rates=rates, friction=FREE)
     assert np.isin(time, curve.time).all()
     added = curve.time[~np.isin(curve.time, time)]
     assert len(added) >= 3
@@ -66,16 +66,16 @@ def test_instants_are_added_only_where_the_drop_changes(rng):
 
 def test_the_hold_up_time_ends_where_the_drop_stays_small():
     arm, heights = lift(lower=0.0), np.array([0.5, 0.2, 0.4, 0.05, 0.0])
-    curve = hf.power_loss_along(arm, heights[:, None], np.arange(5.0), np.zeros((5, 1)), friction=FREE, refine=False)
+    curve = hf.power_loss_along(arm, heights[:, None], np.arange(5.0), rates=np.zeros((5, 1)), friction=FREE, refine=False)
     np.testing.assert_allclose(curve.drop, heights, atol=1e-9)
     assert [curve.find_hold_up_time(limit) for limit in (0.6, 0.3, 0.1, 0.02)] == [0.0, 3.0, 3.0, 4.0]
-    rising = hf.power_loss_along(arm, heights[::-1, None], np.arange(5.0), np.zeros((5, 1)), friction=FREE, refine=False)
+    rising = hf.power_loss_along(arm, heights[::-1, None], np.arange(5.0), rates=np.zeros((5, 1)), friction=FREE, refine=False)
     assert rising.find_hold_up_time(0.3) is None
 
 
 def test_held_joints_stop_at_once(panda, rng):
     time, q, rates = motion(panda, rng, 5)
-    curve = hf.power_loss_along(panda, q, time, rates, refine=False, free=[3], **SHORT)
+    curve = hf.power_loss_along(panda, q, time, rates=rates, refine=False, free=[3], **SHORT)
     only = np.zeros_like(rates)
     only[:, 3] = rates[:, 3]
     np.testing.assert_array_equal(curve.drop, hf.power_loss(panda, q, only, free=[3], **SHORT).drop)

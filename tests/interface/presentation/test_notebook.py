@@ -117,7 +117,7 @@ MADE = {
     "DropCurve": found(lambda: hf.power_loss_along(arm(), X + np.linspace(0, 0.3, 6)[:, None], np.arange(6.0), duration=0.3)),
     "DropProbability": found(lambda: hf.power_loss_probability(arm(), 0.1, samples=100, duration=0.3)),
     "StowPose": found(lambda: hf.stow(arm(), X, friction=hf.Friction(coulomb=9.0), speeds=1.0, samples=500)),
-    "StowPath": lambda: MADE["StowPose"]().plan_path(nodes=50, tolerance=3.0, duration=0.3),
+    "StowPath": lambda: hf.plan_stow_path(MADE["StowPose"](), nodes=50, tolerance=3.0, duration=0.3),
     "PhysicalFall": lambda: MADE["PowerLoss"]().physical(),
     "Recovery": recovered,
     "Proof": lambda: proof(),

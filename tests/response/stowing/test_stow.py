@@ -43,7 +43,7 @@ def test_more_friction_lets_the_arm_stow_nearer(panda, stowed):
     near = hf.stow(panda, START, friction=strong, samples=5000)
     assert near.duration < stowed.duration
     with pytest.raises(hf.InputError, match="in its stow configuration already"):
-        hf.stow(panda, near.q, friction=strong, samples=500).plan_path()
+        hf.plan_stow_path(hf.stow(panda, near.q, friction=strong, samples=500))
 
 
 def test_the_same_seed_gives_the_same_configuration(panda, stowed):
@@ -74,8 +74,8 @@ def dense(path, count=40):
 
 @pytest.mark.parametrize("monotone", [False, True])
 def test_a_path_stays_clear_and_below_its_bound(panda, stowed, monotone):
-    path = stowed.plan_path(monotone=monotone, nodes=300, tolerance=0.3, duration=1.0)
-    assert path.found
+    path = hf.plan_stow_path(stowed, monotone=monotone, nodes=300, tolerance=0.3, duration=1.0)
+    assert path.is_found
     np.testing.assert_array_equal(path.q[[0, -1]], [START, stowed.q])
     limits = np.array([joint.velocity for joint in panda.joints])
     np.testing.assert_allclose((np.abs(np.diff(path.q, axis=0)) / limits).max(axis=1) / path.speed_fraction, np.diff(path.time))
@@ -91,9 +91,9 @@ def test_a_path_around_an_obstacle(panda, stowed):
     middle = panda.forward_kinematics((START + stowed.q) / 2)[:3, 3]
     cell = hf.Cell([hf.cell.Box("post", size=[0.06] * 3, pose=oracles.pose(None, middle))])
     blocked = hf.stow(panda, START, cell=cell, **SEARCH)
-    path = blocked.plan_path(nodes=400, tolerance=0.3, duration=1.0)
+    path = hf.plan_stow_path(blocked, nodes=400, tolerance=0.3, duration=1.0)
     assert path.straight is None
-    assert path.found
+    assert path.is_found
     assert blocked.clearance(np.array([q for q, _ in dense(path)])).min() > 0
 
 
@@ -120,6 +120,6 @@ def test_an_arm_that_nothing_holds_is_refused():
 
 def test_a_path_needs_a_start(panda):
     with pytest.raises(hf.InputError, match="give it to stow as at"):
-        hf.stow(panda, **SEARCH).plan_path()
+        hf.plan_stow_path(hf.stow(panda, **SEARCH))
     with pytest.raises(hf.InputError, match="tolerance is -1"):
-        hf.stow(panda, START, **SEARCH).plan_path(tolerance=-1.0)
+        hf.plan_stow_path(hf.stow(panda, START, **SEARCH), tolerance=-1.0)

@@ -21,7 +21,7 @@ from holdfast.model.failure_modes.sets import read_joint_set
 
 RATE_FIT_SAMPLES = 5  # of the parabola whose slope is the rate
 MAX_PLAUSIBLE_RATE_RAD_S = 100.0
-REFINEMENTS = 3  # each halves the time between instants whose drops differ
+MAX_REFINEMENTS = 3  # each halves the time between instants whose drops differ
 REFINED_CHANGE_FRACTION = 0.1  # of the largest drop
 
 
@@ -100,7 +100,7 @@ class DropCurve(Result):
 @check_arguments
 @reports_progress("simulating power losses along the motion")
 def power_loss_along(
-    arm: Arm, q: ArrayLike, time: ArrayLike, rates: ArrayLike | None = None, *, refine: bool = True, **options: Any
+    arm: Arm, q: ArrayLike, time: ArrayLike, *, rates: ArrayLike | None = None, refine: bool = True, **options: Any
 ) -> DropCurve:
     """Simulate a power loss at every instant of a motion.
 
@@ -135,7 +135,7 @@ def power_loss_along(
         return power_loss(arm, motion, speeds * free, **options).require_ok()
 
     falls = simulate()
-    for _ in range(REFINEMENTS if refine else 0):
+    for _ in range(MAX_REFINEMENTS if refine else 0):
         changes = np.abs(np.diff(falls.drop))
         gaps = np.flatnonzero(changes > REFINED_CHANGE_FRACTION * np.abs(falls.drop).max())
         if not gaps.size:

@@ -117,7 +117,7 @@ class ContactSearch:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
         done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
-        calls = max(1, int(CHECK_SPACING_S / step.max(initial=1e-9)))
+        calls = max(1, int(CHECK_SPACING_S / (stepper.steps_per_call * step.max(initial=1e-9))))
         before, ignored = self._measure_nearest(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
         for _ in range(most_calls // calls + 1):
             result = stepper.loop.run(states[rows], parameters[rows], 0.5, calls)
@@ -169,8 +169,7 @@ class ContactSearch:
             np.minimum.at(latest, falls[touching], after.time[touching])
             is_possible = touching | (before.distances + after.distances < change)
             is_coarse = is_possible & np.where(touching, duration > TIME_RESOLUTION_S, change >= MIN_DISTANCE_CHANGE_M)
-            approach = np.where(touching, np.maximum(before.distances - after.distances, 1e-300), 1.0)
-            fraction = np.clip(before.distances / approach, 0.0, 1.0)
+            fraction = before.distances / np.where(touching, before.distances - after.distances, 1.0)
             instants = np.where(touching & ~is_coarse, before.time + fraction * duration, np.inf)
             order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
             order = order[instants[order] < time[falls[order]]]

@@ -27,6 +27,8 @@ class PassiveArm:
     ``longest_step``, s.
     """
 
+    steps_per_call = 1
+
     def __init__(self, arm: Arm) -> None:
         self.arm = arm
         self.made_of: object = arm

@@ -35,7 +35,7 @@ class SmoothStepper(PassiveArm):
     @cached_kernel
     def loop(self) -> Loop:
         """Loop that repeats the steps."""
-        return make_state_loop("smooth falls", self._build_step, self.layout, self.parameters.symbols, 1)
+        return make_state_loop("smooth falls", self._build_step, self.layout, self.parameters.symbols, self.steps_per_call)
 
     def _build_step(self, parts: dict[str, SX]) -> dict[str, SX]:
         time = parts["time"]

@@ -42,7 +42,6 @@ REST_RATE = 1e-9  # rad/s or m/s: a slower joint does not hit a stop, it lies ag
 RATE_ROUNDING = 1e-12  # rad/s or m/s
 TRIES_TOGETHER = 12  # corrections of the set that may change all joints; later corrections change one joint each
 MOST_TRIES = 60
-STEPS_PER_CALL = 2  # the loop around a call takes a fifth of the time of one step
 
 # Modes of a joint at rest or at a stop; only MODE_STOPPING also belongs to moving joints. The mode of a joint that breaks loose
 # or slides has the sign of its motion.
@@ -87,6 +86,8 @@ class DryFrictionStepper(PassiveArm):
     set; and the ``code``.
     """
 
+    steps_per_call = 2  # the loop around a call takes a fifth of the time of one step
+
     def __init__(self, arm: Arm, has_stops: bool) -> None:
         super().__init__(arm)
         self.made_of, n = (arm, has_stops), arm.n
@@ -99,7 +100,7 @@ class DryFrictionStepper(PassiveArm):
     @cached_kernel
     def loop(self) -> Loop:
         """Loop that repeats the calls of a step."""
-        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, STEPS_PER_CALL)
+        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, self.steps_per_call)
 
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
         """Return the parts after one call: a corrected set, a shorter step, or the state after the step."""

@@ -22,7 +22,7 @@ from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.stowing.pose import StowPose, sample_with_stops
 
 EDGE_SAMPLES = 8  # inner configurations of an edge whose falls are simulated
-NEIGHBORS = 16
+NEIGHBOR_COUNT = 16
 NEAR_LINE_RAD = 0.3  # rad or m: standard deviation of nodes about the straight line
 SMALL_DROP_M = 1e-3  # added to every drop, so that a path without drops is short
 CURVE_INSTANTS = 101
@@ -65,7 +65,7 @@ class StowPath(Result):
     checked_edges: int
 
     @property
-    def found(self) -> bool:
+    def is_found(self) -> bool:
         """True if a path was found."""
         return self.curve is not None
 
@@ -74,8 +74,6 @@ class StowPath(Result):
 @reports_progress("planning a path to the stow configuration")
 def plan_stow_path(
     stow: StowPose,
-    start: FloatArray,
-    metric: JointMetric,
     *,
     monotone: bool = False,
     tolerance: float = 0.01,
@@ -89,20 +87,21 @@ def plan_stow_path(
     no path at full speed.
 
     Args:
-        stow: Result of :func:`holdfast.stow`.
-        start: (n,) start configuration, rad and m.
-        metric: Metric of the time at the speed limits.
+        stow: Result of :func:`holdfast.stow` with a start.
         monotone: True to admit only paths along which the drop never rises by more than the tolerance.
         tolerance: Tolerance of the drop, m.
         nodes: Number of nodes of the roadmap.
         duration: Duration of every simulated fall, s.
 
     Returns:
-        A :class:`StowPath`, whose ``found`` is False if the roadmap contains no such path, which is no proof.
+        A :class:`StowPath`, whose ``is_found`` is False if the roadmap contains no such path, which is no proof.
 
     Raises:
-        InputError: A number is out of range, or start or end is in collision.
+        InputError: A number is out of range, there is no start, or start or end is in collision.
     """
+    start, metric = stow.at, stow.metric
+    if start is None or metric is None:
+        raise InputError("the path needs a start; give it to stow as at (--from)")
     if not (np.isfinite(tolerance) and tolerance >= 0):
         raise InputError(f"tolerance is {tolerance:g} m; it must be a finite number of 0 or more")
     if nodes < 1:
@@ -196,7 +195,7 @@ class _Roadmap:
     def _list_edges(self) -> tuple[IndexArray, IndexArray]:
         """Return the directed edges (E,) between near nodes."""
         scaled = self.q * self.metric.scale
-        neighbors = KDTree(scaled).query(scaled, k=min(NEIGHBORS, len(scaled)), p=np.inf)[1]
+        neighbors = KDTree(scaled).query(scaled, k=min(NEIGHBOR_COUNT, len(scaled)), p=np.inf)[1]
         first, second = np.repeat(np.arange(len(scaled)), neighbors.shape[1]), neighbors.ravel()
         pairs = np.unique(np.concatenate([[first, second], [second, first], [[0], [1]]], axis=1), axis=1)
         pairs = pairs[:, pairs[0] != pairs[1]]
@@ -253,4 +252,4 @@ class _Roadmap:
         rates = np.diff(waypoints, axis=0) / np.diff(times)[:, None]
         q = waypoints[piece] + (instants - times[piece])[:, None] * rates[piece]
         q = np.clip(q, self.space.low, self.space.high)
-        return power_loss_along(self.arm, q, instants, rates[piece], refine=False, **self.options)
+        return power_loss_along(self.arm, q, instants, rates=rates[piece], refine=False, **self.options)

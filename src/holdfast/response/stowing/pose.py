@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,9 +24,6 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.response.recovery.space import JointMetric
-
-if TYPE_CHECKING:
-    from holdfast.response.stowing.path import StowPath
 
 STOP_PROBABILITY = 0.2  # of a sampled joint at its lower limit, and at its upper limit
 _CLIMBED_CANDIDATES = 200
@@ -53,6 +50,7 @@ class StowPose(Result):
         friction: Friction as requested; None as the arm states.
         clearance: Collision model; None if collisions are not checked.
         margin: Smallest clearance, m.
+        metric: Metric of the time at the speed limits; None without ``at``.
     """
 
     arm: Arm
@@ -68,23 +66,12 @@ class StowPose(Result):
     friction: Friction | None
     clearance: Clearance | None
     margin: float
-    _metric: JointMetric | None = field(repr=False, compare=False)
+    metric: JointMetric | None
 
     @property
     def holds(self) -> bool:
         """True if friction and stops hold the arm in ``q`` with the requested factor."""
         return bool(self.check.factor >= self.factor)
-
-    def plan_path(self, *, monotone: bool = False, tolerance: float = 0.01, **options: Any) -> StowPath:
-        """Plan a path from ``at`` to this configuration on which a power loss at any instant drops the tool little.
-
-        Arguments, result, and errors are those of :func:`holdfast.response.stowing.path.plan_stow_path`.
-        """
-        from holdfast.response.stowing.path import plan_stow_path
-
-        if self.at is None or self._metric is None:
-            raise InputError("the path needs a start; give it to stow as at (--from)")
-        return plan_stow_path(self, self.at, self._metric, monotone=monotone, tolerance=tolerance, **options)
 
 
 @check_arguments
@@ -197,7 +184,7 @@ def stow(
         friction=friction,
         clearance=model,
         margin=float(margin),
-        _metric=metric,
+        metric=metric,
     )
 
 

@@ -53,7 +53,7 @@ def command(
         samples=samples,
         seed=seed,
     )
-    planned = stow.plan_path(monotone=monotone, tolerance=tolerance, nodes=nodes) if path or monotone else None
+    planned = hf.plan_stow_path(stow, monotone=monotone, tolerance=tolerance, nodes=nodes) if path or monotone else None
     output.print_result(stow if planned is None else planned)
-    if not stow.holds or (planned is not None and not planned.found):
+    if not stow.holds or (planned is not None and not planned.is_found):
         raise typer.Exit(NOT_MET_EXIT_CODE)

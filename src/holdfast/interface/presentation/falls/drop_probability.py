@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from holdfast.control.falls.probability import DropProbability
 
-_NAMES = {
+_MEASURE_NAMES = {
     "drop": "drop of the tool",
     "released": "released energy",
     "impact_speed": "impact speed",
@@ -47,7 +47,7 @@ def to_dict(result: DropProbability) -> dict[str, Any]:
 
 def present(result: DropProbability) -> Presentation:
     """Present the fraction of harmless configurations, quantiles, a map over the two most important joints, and the worst."""
-    arm, interval, name = result.fall.arm, result.interval(), _NAMES[result.measure]
+    arm, interval, name = result.fall.arm, result.interval(), _MEASURE_NAMES[result.measure]
     limit = f"{format_number(result.below)} {result.unit}"
     known = result.value[np.isfinite(result.value)]
     quantiles = (
@@ -115,6 +115,6 @@ def _draw_map(result: DropProbability) -> Figure:
         mesh = axes.pcolormesh(
             x * arm.joints[first].display_unit[0], y * arm.joints[second].display_unit[0], means.T, cmap="cividis_r"
         )
-        figure.colorbar(mesh, label=f"mean {_NAMES[result.measure]}, {result.unit}")
+        figure.colorbar(mesh, label=f"mean {_MEASURE_NAMES[result.measure]}, {result.unit}")
         axes.set(xlabel=labels[0], ylabel=labels[1], title=f"{known.sum():,} falls")
         return settle_layout(figure)

@@ -37,7 +37,7 @@ def to_dict(result: StowPose | StowPath) -> dict[str, Any]:
     }
     if isinstance(result, StowPath):
         data["path"] = {
-            "found": result.found,
+            "found": result.is_found,
             "q": result.q,
             "time_s": result.time,
             "bound_m": result.bound,

@@ -10,6 +10,6 @@ from holdfast.kinematics.indices.susceptibility.sets import FreeSetSusceptibilit
 from holdfast.kinematics.indices.susceptibility.sets import free_acceleration as free_acceleration
 from holdfast.kinematics.indices.susceptibility.sets import release as release
 from holdfast.kinematics.indices.susceptibility.sets import tool_drop as tool_drop
-from holdfast.kinematics.indices.susceptibility.swing_energy import SwingEnergy as SwingEnergy
-from holdfast.kinematics.indices.susceptibility.swing_energy import swing_energy as swing_energy
+from holdfast.kinematics.indices.susceptibility.settling import SwingEnergy as SwingEnergy
+from holdfast.kinematics.indices.susceptibility.settling import swing_energy as swing_energy
 from holdfast.kinematics.indices.susceptibility.weights import largest_static_torque as largest_static_torque
