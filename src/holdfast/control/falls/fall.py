@@ -20,6 +20,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.model.arm.friction import JointFriction
 from holdfast.model.arm.model import Arm
+from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 
@@ -73,6 +74,7 @@ class PowerLoss(Result):
         residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N; 0 if none
             does.
         contacts: First contacts; None if they were not searched for.
+        clearance: Collision model of these contacts, with its cell; None if they were not searched for.
     """
 
     arm: Arm
@@ -95,6 +97,7 @@ class PowerLoss(Result):
     error: FloatArray
     residual: FloatArray
     contacts: FallContacts | None
+    clearance: Clearance | None
     _simulator: FallSimulator = field(repr=False, compare=False)
 
     def __len__(self) -> int:
@@ -104,6 +107,11 @@ class PowerLoss(Result):
     def outcome(self) -> NDArray[np.str_]:
         """(N,) outcome of each fall as text: ``holds``, ``rest``, ``moving``, ``contact`` or ``unknown``."""
         return np.asarray(_OUTCOME_NAMES[self.code])
+
+    @property
+    def cell(self) -> Cell | None:
+        """Objects with which contacts were searched for."""
+        return None if self.clearance is None else self.clearance.cell
 
     def q_at(self, time: ArrayLike) -> FloatArray:
         """Return the configurations (N, n), rad and m, at a time since the power loss, s; (N, T, n) for times (T,)."""
@@ -159,7 +167,7 @@ class PowerLoss(Result):
         Args:
             row: Number of the fall, from 0. Default: the only one.
             clearance: Collision model of the arm, which may contain a cell. True also checks the links of a planar arm against
-                each other, and False no links. Default: the default model.
+                each other, and False no links. Default: that of this fall, or the default model.
             cell: Objects around the arm, or their file.
             step: Time step, s, at most 0.02 s.
 
@@ -189,7 +197,7 @@ class PowerLoss(Result):
             brakes=self.brakes,
             stops=self.stops,
             duration=self.duration,
-            clearance=chosen_clearance(self.arm, clearance, cell),
+            clearance=chosen_clearance(self.arm, self.clearance if clearance is None else clearance, cell),
             step=step,
         )
 

@@ -16,6 +16,7 @@ from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray, IndexArray, Rows
 from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.kinematics.holding.static_check import STOP_TOLERANCE
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
@@ -57,7 +58,8 @@ def power_loss(
 
     Args:
         arm: The arm, with inertial data for every link.
-        q: (n,) configuration or (N, n) configurations at the power loss, rad and m.
+        q: (n,) configuration or (N, n) configurations at the power loss, rad and m. A joint within 1e-4 rad or m outside its
+            limit starts at the limit.
         rates: (n,) or (N, n) joint rates at the power loss, rad/s and m/s. Default: all joints are at rest.
         free: Joints that lose their torque: names and indices from 0, or one text with names and numbers from 1 between
             commas. Default: all joints.
@@ -93,6 +95,7 @@ def power_loss(
     _check_held_rates(arm, start_rates[is_finite], is_free)
     if stops:
         _check_limits(arm, starts[is_finite], np.flatnonzero(is_finite), is_free)
+        starts = np.where(is_free == 1, np.clip(starts, arm.lower, arm.upper), starts)
     joint_friction = (friction or Friction()).of_joints(arm)
     no_brakes = {"brake_torque": np.zeros(arm.n), "brake_damping": np.zeros(arm.n)}
     conditions: dict[str, FloatArray | float] = {
@@ -139,6 +142,7 @@ def power_loss(
         stops=stops,
         duration=float(duration),
         contacts=None if model is None else FallContacts(pair_names=tuple(model.pair_names), **contacts),
+        clearance=model,
         _simulator=simulator,
         **values,
     )
@@ -156,8 +160,8 @@ def _simulate(
     """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s."""
     until = np.full(len(q), float(duration))
     states = runner.run(q, rates, until, step)
-    coarse = simulator.run(q, rates, np.where(states.pair < 0, until, states.time), 2 * step)
-    errors = 2 * np.linalg.norm(states.tool - coarse.tool, axis=1)
+    coarse_tool = simulator.run(q, rates, np.where(states.pair < 0, until, states.time), 2 * step).tool
+    errors = 2 * np.linalg.norm(states.tool - coarse_tool, axis=1)
     for _ in range(0 if accuracy is None else MOST_HALVINGS):
         rows = np.flatnonzero(~(errors <= accuracy))
         if not rows.size:
@@ -239,7 +243,7 @@ def _check_held_rates(arm: Arm, rates: FloatArray, is_free: FloatArray) -> None:
 
 
 def _check_limits(arm: Arm, q: FloatArray, rows: IndexArray, is_free: FloatArray) -> None:
-    outside = np.argwhere(((q < arm.lower) | (q > arm.upper)) & (is_free == 1))
+    outside = np.argwhere((np.maximum(arm.lower - q, q - arm.upper) > STOP_TOLERANCE) & (is_free == 1))
     if outside.size:
         row, joint = outside[0]
         excess = max(arm.lower[joint] - q[row, joint], q[row, joint] - arm.upper[joint])

@@ -94,7 +94,7 @@ def stow(
 
     The search samples configurations with joints at their limits, where stops carry them, and improves the best of them. With
     ``at`` it returns the configuration found that the arm reaches soonest on a straight line in joint space, otherwise the one
-    with the largest factor. If no configuration holds, it returns the one with the smallest simulated drop.
+    with the largest surplus of friction in its weakest joint, N m. If no configuration holds, it returns the one with the smallest simulated drop.
 
     Args:
         arm: The arm, with inertial data for every link.
@@ -166,7 +166,7 @@ def stow(
         held, scores = _climb(held, score(held), score, is_clear, rng, lower, upper)
         chosen = held[np.argmax(scores)]
     elif count:
-        chosen = held[np.argmax(holds(arm, held, friction=friction).factor)]
+        chosen = candidates[np.argmax(excess)]
     else:
         falls = power_loss(arm, candidates, friction=friction, clearance=model, step=4e-3)
         chosen = candidates[np.argmin(falls.drop)]

@@ -123,5 +123,5 @@ def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray]
         free=fall.free if len(fall.free) < fall.arm.n else (),
         time=time,
         readings=[f"{instant:.2f} s" for instant in time],
-        cell=getattr(fall, "cell", None),
+        cell=fall.cell,
     )
