@@ -135,7 +135,7 @@ class PowerLoss(Result):
         return np.asarray((displacement - start) @ self._simulator.stepper.down)
 
     def to_csv(self, file: str | Path) -> Path:
-        """Write the motion of a single fall to ``file`` as rows every 10 ms, as :meth:`PhysicalFall.to_csv` does.
+        """Write the motion of a single fall to ``file`` as rows every 10 ms, with the columns of a physical fall.
 
         Raises:
             InputError: There are several falls.

@@ -94,7 +94,8 @@ def stow(
 
     The search samples configurations with joints at their limits, where stops carry them, and improves the best of them. With
     ``at`` it returns the configuration found that the arm reaches soonest on a straight line in joint space, otherwise the one
-    with the largest surplus of friction in its weakest joint, N m. If no configuration holds, it returns the one with the smallest simulated drop.
+    with the largest surplus of friction in its weakest joint, N m. If no configuration holds, it returns the one with the
+    smallest simulated drop.
 
     Args:
         arm: The arm, with inertial data for every link.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import format_number
-from holdfast.interface.presentation.falls.physical_fall import format_distance
+from holdfast.interface.presentation.falls.motion import format_distance
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:

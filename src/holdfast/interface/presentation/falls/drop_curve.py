@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_number
-from holdfast.interface.presentation.falls.physical_fall import describe_free_joints, format_distance, list_friction
+from holdfast.interface.presentation.falls.motion import describe_free_joints, format_distance, list_friction
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 from holdfast.core.formatting import format_count, format_interval, format_number
-from holdfast.interface.presentation.falls.physical_fall import describe_free_joints, list_friction
+from holdfast.interface.presentation.falls.motion import describe_free_joints, list_friction
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 if TYPE_CHECKING:

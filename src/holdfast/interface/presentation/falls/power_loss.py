@@ -13,7 +13,7 @@ from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.core.status import Status
 from holdfast.interface.presentation.collision.contacts import tabulate_contacts
-from holdfast.interface.presentation.falls import physical_fall as shared
+from holdfast.interface.presentation.falls import motion
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.model.arm.friction import Friction
@@ -71,7 +71,7 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
     return Presentation(
         f"Power loss of {fall.arm.name}",
         f"{_compose_answer(fall, band)}." if single else _count_outcomes(fall),
-        about=f"Arm {fall.arm.title}. {shared.describe_free_joints(fall)}.",
+        about=f"Arm {fall.arm.title}. {motion.describe_free_joints(fall)}.",
         notices=[
             *_list_notices(fall),
             *[Notice(f"{capitalise_first(contacts[0].sentence())}.", title="MuJoCo") for contacts in touching],
@@ -82,7 +82,7 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         sections=partial(_animate_fall, fall, others) if is_falling else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
-            *shared.list_friction(fall),
+            *motion.list_friction(fall),
             ("Stops", f"joint limits, with a restitution of {fall.restitution:g}" if fall.stops else "none"),
         ],
         arm=fall.arm,
@@ -103,7 +103,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
         return f"The fall was not simulated to its end: {Status(int(fall.status)).sentence}"
     if fall.outcome == "holds":
         return "The arm stays where it is, because friction and stops hold every joint without torque"
-    answer = shared.describe_drop(float(fall.drop))
+    answer = motion.describe_drop(float(fall.drop))
     if contact:
         answer += f" until {contact}"
     elif np.isfinite(fall.rest_time):
@@ -111,7 +111,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
     else:
         answer += f" within {format_number(fall.duration, 3)} s, and the arm still moves then"
     if band:
-        low, high = (shared.format_distance(pick(float(other.drop) for other in (fall, *band))) for pick in (min, max))
+        low, high = (motion.format_distance(pick(float(other.drop) for other in (fall, *band))) for pick in (min, max))
         answer += f"; from no friction to twice the friction: {low} to {high}"
     return answer
 
@@ -132,7 +132,7 @@ def _count_outcomes(fall: PowerLoss) -> str:
     answer = f"Outcomes of {format_count(len(fall), 'fall')}: {', '.join(f'{count:,} {name}' for name, count in counts)}."
     if np.isnan(fall.drop).all():
         return answer
-    median, worst = (shared.format_distance(float(pick(fall.drop))) for pick in (np.nanmedian, np.nanmax))
+    median, worst = (motion.format_distance(float(pick(fall.drop))) for pick in (np.nanmedian, np.nanmax))
     return f"{answer} The median drop is {median}, and the largest is {worst} (row {np.nanargmax(fall.drop)})."
 
 
@@ -216,12 +216,12 @@ def _find_end(fall: PowerLoss) -> float:
 
 
 def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
-    time = np.linspace(0.0, _find_end(fall), shared.FILM_FRAMES)
+    time = np.linspace(0.0, _find_end(fall), motion.FILM_FRAMES)
     motions = {"fall": fall.q_at(time)}
     for label, other in others.items():
         if isinstance(other, PhysicalFall):
             motions[label] = np.stack([np.interp(time, other.time, values) for values in other.q.T], axis=1)
-    return [shared.build_film(fall, motions, time)]
+    return [motion.build_film(fall, motions, time)]
 
 
 def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
@@ -247,4 +247,4 @@ def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
         TimePanel(time, energies, "energy, J", "Energy"),
         TimePanel(time, speeds, label, "Joints", moments=stops),
     ]
-    return motion_figure(panels, f"{arm.name} without power, simulated", shared.TIME_LABEL)
+    return motion_figure(panels, f"{arm.name} without power, simulated", motion.TIME_LABEL)

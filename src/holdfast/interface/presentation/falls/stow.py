@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.falls.drop_curve import draw_curves
-from holdfast.interface.presentation.falls.physical_fall import describe_drop, format_distance, list_friction
+from holdfast.interface.presentation.falls.motion import describe_drop, format_distance, list_friction
 from holdfast.interface.presentation.holding import hold_check
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
 from holdfast.response.stowing.path import StowPath
