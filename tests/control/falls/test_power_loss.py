@@ -385,3 +385,13 @@ def test_impossible_arms_and_times_are_named(panda):
     for time in (-0.1, 0.2, np.nan):
         with pytest.raises(hf.InputError, match=r"from 0 to the duration, 0\.1 s"):
             fall.q_at(time)
+
+
+def test_strong_viscous_friction_does_not_make_the_steps_diverge():
+    arm = hf.arms.load("xarm7")
+    q = (arm.lower + arm.upper) / 2
+    friction = hf.Friction(coulomb=0.0, viscous=30.0)
+    fall = hf.power_loss(arm, q, friction=friction, stops=False, duration=0.5)
+    fine = hf.power_loss(arm, q, friction=friction, stops=False, duration=0.5, step=1e-4)
+    assert fall.status == hf.Status.OK
+    np.testing.assert_allclose(fall.q_final, fine.q_final, atol=1e-4)

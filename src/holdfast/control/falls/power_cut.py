@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import REQUIRED_GAP_M, ContactSearch, FallContacts, collect_contact_fields
 from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
-from holdfast.control.falls.simulator import FallSimulator, FallStates, never
+from holdfast.control.falls.simulator import FallSimulator, FallStates, compiled_energy_kernel, never
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status
@@ -25,6 +25,7 @@ from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.clearance_argument import CellLike, chosen_clearance
 from holdfast.model.failure_modes.sets import JointSet, read_joint_set
 
+STIFF_RATIO = 1.0  # of viscous friction times the step to the inertia, above which explicit steps may diverge
 MOST_HALVINGS = 6  # of the time step, for the requested accuracy
 NEGLIGIBLE_INERTIA_FRACTION = 1e-12  # of the inertia about a joint that the other joints leave to it
 
@@ -105,8 +106,10 @@ def power_loss(
         "restitution": restitution,
         "free": is_free,
     }
-    simulator = FallSimulator(arm, stops, conditions)
-    _require_inertia(arm, simulator, starts[is_finite], joints)
+    inertia = _require_inertia(arm, starts[is_finite], joints)
+    damping = np.asarray(conditions["viscous"]) + conditions["brake_damping"]
+    is_stiff = bool((damping[list(joints)] * step > STIFF_RATIO * inertia).any())
+    simulator = FallSimulator(arm, stops, conditions, is_stiff)
     steps = np.full(len(starts), float(step))
     rows = np.flatnonzero(is_finite)
     model = chosen_clearance(arm, clearance, cell, looks=False)
@@ -269,11 +272,12 @@ def _check_start_contacts(clearance: Clearance, q: FloatArray, rows: IndexArray)
         )
 
 
-def _require_inertia(arm: Arm, simulator: FallSimulator, q: FloatArray, joints: tuple[int, ...]) -> None:
-    """Require that every free joint moves inertia of its own, whatever the free joints behind it do."""
+def _require_inertia(arm: Arm, q: FloatArray, joints: tuple[int, ...]) -> FloatArray:
+    """Return the inertia (F,) that each free joint has whatever the free joints behind it do, and require that it has some."""
+    moved = np.full(len(joints), np.inf)
     if not len(q):
-        return
-    inertia = simulator.energy_kernel.rows(q[:1])[0, 1:].reshape(arm.n, arm.n)
+        return moved
+    inertia = compiled_energy_kernel(arm).rows(q[:1])[0, 1:].reshape(arm.n, arm.n)
     for index in reversed(range(len(joints))):
         joint, later = joints[index], list(joints[index + 1 :])
         own = float(inertia[joint, joint])
@@ -286,3 +290,5 @@ def _require_inertia(arm: Arm, simulator: FallSimulator, q: FloatArray, joints: 
                 f"arm '{arm.name}', joint '{arm.joint_names[joint]}': its links have no inertia that resists its motion, so "
                 "its acceleration is not defined; give the links their inertia or the joint its armature"
             )
+        moved[index] = remaining
+    return moved

@@ -61,18 +61,19 @@ class FallSimulator:
         has_stops: True if the limits of the arm stop its joints.
         conditions: Parameters of :class:`holdfast.control.falls.passive_arm.PassiveArm`, all of them except ``until`` and
             ``longest_step``.
+        is_stiff: True if explicit steps would diverge, so that implicit ones are needed also without dry friction and stops.
     """
 
-    def __init__(self, arm: Arm, has_stops: bool, conditions: dict[str, FloatArray | float]) -> None:
-        self.arm, self.has_stops, self.conditions = arm, has_stops, conditions
+    def __init__(self, arm: Arm, has_stops: bool, conditions: dict[str, FloatArray | float], is_stiff: bool = False) -> None:
+        self.arm, self.has_stops, self.conditions, self.is_stiff = arm, has_stops, conditions, is_stiff
         has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
-        self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry else compiled_smooth_stepper(arm)
+        self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry or is_stiff else compiled_smooth_stepper(arm)
         self.energy_kernel: Kernel = compiled_energy_kernel(arm)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Leave the compiled loops out of a pickle."""
-        return FallSimulator, (self.arm, self.has_stops, self.conditions)
+        return FallSimulator, (self.arm, self.has_stops, self.conditions, self.is_stiff)
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to given times.
