@@ -39,7 +39,7 @@ def stow_paths() -> None:
         if curve is not None:
             time, drop = curve.confirm(25)
             found = f"{1e3 * drop.max():.0f} mm, {1e3 * np.trapezoid(drop, time):.0f} mm s in {curve.time[-1]:.2f} s"
-        print(f"| YAM, {name} path to its stow configuration, worst drop and exposure in MuJoCo | {expected[name]} | {found} |")
+        print(f"| YAM, {name} path to a stow pose, worst drop and exposure in MuJoCo | {expected[name]} | {found} |")
 
 
 def holding_fraction(name: str, coulomb: float, samples: int) -> float:
@@ -72,7 +72,7 @@ def main() -> None:
         fall = hf.power_loss(yam, PARK, friction=hf.Friction(coulomb=coulomb), clearance=clearance)
         touched = fall.contacts
         print(
-            f"| YAM, park pose, Coulomb friction {coulomb:g} N m, until it meets the table | 343 to 348 mm, 0.25 to 0.27 s, 2.1 "
+            f"| YAM, park pose, Coulomb {coulomb:g} N m, until it meets the table | 343 to 348 mm, 0.25 to 0.27 s, 2.1 "
             f"to 2.3 m/s, 1.1 kg, 2.6 to 3.0 J; about 40 cm observed | {1e3 * fall.drop:.0f} mm, {touched.time:.3f} s, "
             f"{touched.normal_speed:.1f} m/s, {touched.effective_mass:.1f} kg, {touched.energy_lost:.1f} J |"
         )

@@ -31,7 +31,7 @@ class FallContacts:
     NaN.
 
     Attributes:
-        pair_names: Names of the P checked pairs, as in :attr:`holdfast.Clearance.pair_names`.
+        pair_names: Names of the P checked pairs, as in ``pair_names`` of :class:`holdfast.Clearance`.
         pair: (N,) position of the touching pair in ``pair_names``; -1 for a fall without contact.
         time: (N,) time since the power loss, s.
         point: (N, 3) point of the contact on the link, in the world, m.

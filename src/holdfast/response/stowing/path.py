@@ -99,9 +99,10 @@ def plan_stow_path(
     Raises:
         InputError: A number is out of range, there is no start, or start or end is in collision.
     """
-    start, metric = stow.at, stow.metric
-    if start is None or metric is None:
+    start = stow.at
+    if start is None or stow.speeds is None:
         raise InputError("the path needs a start; give it to stow as at (--from)")
+    metric = JointMetric("time", 1 / stow.speeds)
     if not (np.isfinite(tolerance) and tolerance >= 0):
         raise InputError(f"tolerance is {tolerance:g} m; it must be a finite number of 0 or more")
     if nodes < 1:

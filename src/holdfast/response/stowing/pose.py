@@ -50,7 +50,7 @@ class StowPose(Result):
         friction: Friction as requested; None as the arm states.
         clearance: Collision model; None if collisions are not checked.
         margin: Smallest clearance, m.
-        metric: Metric of the time at the speed limits; None without ``at``.
+        speeds: (n,) speed limits, rad/s and m/s; None without ``at``.
     """
 
     arm: Arm
@@ -66,7 +66,7 @@ class StowPose(Result):
     friction: Friction | None
     clearance: Clearance | None
     margin: float
-    metric: JointMetric | None
+    speeds: FloatArray | None
 
     @property
     def holds(self) -> bool:
@@ -127,7 +127,8 @@ def stow(
     resting = (friction or Friction()).of_joints(arm)
     if not resting.stiction.any() and not resting.load.any() and not np.isfinite([arm.lower, arm.upper]).any():
         raise InputError(f"nothing holds '{arm.name}' but its motors, because it has neither dry friction nor joint limits")
-    start, metric = _read_start(arm, at, speeds)
+    start, limits = _read_start(arm, at, speeds)
+    metric = None if limits is None else JointMetric("time", 1 / limits)
     model = chosen_clearance(arm, clearance, cell)
     lower, upper = sampling_limits(arm)
     if where is not None:
@@ -185,7 +186,7 @@ def stow(
         friction=friction,
         clearance=model,
         margin=float(margin),
-        metric=metric,
+        speeds=limits,
     )
 
 
@@ -195,8 +196,8 @@ def sample_with_stops(rng: np.random.Generator, count: int, lower: FloatArray, u
     return np.asarray(np.where(side < STOP_PROBABILITY, lower, np.where(side > 1 - STOP_PROBABILITY, upper, q)))
 
 
-def _read_start(arm: Arm, at: ArrayLike | None, speeds: JointNumbers | None) -> tuple[FloatArray | None, JointMetric | None]:
-    """Return the start configuration and the metric of the time at the speed limits; None without a start."""
+def _read_start(arm: Arm, at: ArrayLike | None, speeds: JointNumbers | None) -> tuple[FloatArray | None, FloatArray | None]:
+    """Return the start configuration and the speed limits (n,); None without a start."""
     if at is None:
         return None, None
     start = arm.check_configurations(at)
@@ -206,7 +207,7 @@ def _read_start(arm: Arm, at: ArrayLike | None, speeds: JointNumbers | None) -> 
     for name, limit in zip(arm.joint_names, limits, strict=True):
         if not (np.isfinite(limit) and limit > 0):
             raise InputError(f"joint '{name}' has no speed limit above 0; give the speeds in rad/s and m/s")
-    return start, JointMetric("time", 1 / limits)
+    return start, limits
 
 
 def _first_clear(q: FloatArray, order: Any, is_clear: Callable[[FloatArray], BoolArray]) -> Any:

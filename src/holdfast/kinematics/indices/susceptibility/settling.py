@@ -104,11 +104,11 @@ class SwingEnergy(Objective):
 
     @property
     def measured(self) -> SX | None:
-        """Symbols of the energy and its gradient; see :attr:`Objective.measured`."""
+        """Symbols of the energy and its gradient; see :class:`holdfast.kinematics.indices.Objective`."""
         return self._measured
 
     def measure(self, q: FloatArray) -> FloatArray:
-        """Return the energies and their gradients, (N, 1 + n), at ``q`` (N, n); see :meth:`Objective.measure`."""
+        """Return the energies and their gradients, (N, 1 + n), at ``q`` (N, n), rad and m."""
         lowest = self.settle(q)
         energy, torques, *_ = self._evaluate_terms(q)
         lowest_energy, lowest_torques, *_ = self._evaluate_terms(lowest)
@@ -116,7 +116,7 @@ class SwingEnergy(Objective):
         return np.column_stack([energy - lowest_energy, torques - is_held * lowest_torques])
 
     def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return minus the energy and its slopes; arguments as in :meth:`Objective.parts`."""
+        """Return minus the energy and its slopes; arguments as for other objectives."""
         del q, j, qr
         slopes = [-ca.dot(self._measured[1:], direction) for direction in directions]
         return [ObjectivePart(1.0, [-self._measured[0]], [slopes])]
