@@ -38,6 +38,14 @@ def test_a_stow_configuration_holds_by_the_torques_of_pinocchio(panda, stowed):
     assert stowed.duration == pytest.approx((np.abs(stowed.q - START) / limits).max())
 
 
+def test_a_box_around_a_stow_configuration_is_proved(panda, stowed):
+    at_stop = (stowed.q == panda.lower) | (stowed.q == panda.upper)
+    half = np.where(at_stop, 0.0, 1e-3)
+    lower, upper = np.maximum(stowed.q - half, panda.lower), np.minimum(stowed.q + half, panda.upper)
+    proof = hf.certify(hf.certificates.hold_claim(panda, lower, upper, friction=FRICTION))
+    assert proof.proved == 1
+
+
 def test_more_friction_lets_the_arm_stow_nearer(panda, stowed):
     strong = hf.Friction(coulomb=100.0, viscous=0.5)
     near = hf.stow(panda, START, friction=strong, samples=5000)
