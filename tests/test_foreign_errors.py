@@ -150,6 +150,29 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             {"arm": arm, "q": q, "rates": q, "free": [1], "friction": None, "brakes": None, "restitution": 0.0, "stops": False}
             | {"duration": 0.1, "step": 0.01, "accuracy": None},
         ),
+        "power_loss_along": (
+            hf.power_loss_along,
+            {"arm": arm, "q": np.tile(q, (5, 1)), "time": np.arange(5.0), "rates": None, "refine": False, "duration": 0.1},
+        ),
+        "power_loss_probability": (
+            hf.power_loss_probability,
+            {"arm": arm, "below": 0.1, "measure": "drop", "where": None, "q": None, "samples": 3, "seed": 0, "cell": None}
+            | {"clearance": None, "duration": 0.1},
+        ),
+        "compare_brakes": (
+            hf.compare_brakes,
+            {"arm": arm, "q": q, "rates": None, "torque": [3.0], "after": [0.1], "friction": None, "duration": 0.2},
+        ),
+        "stow": (
+            hf.stow,
+            {"arm": arm, "at": q, "friction": None, "factor": 1.5, "where": None, "cell": None, "clearance": None}
+            | {"margin": 0.0, "speeds": 1.0, "samples": 20, "seed": 0},
+        ),
+        "plan_stow_path": (
+            hf.plan_stow_path,
+            {"stow": hf.stow(arm, q, speeds=1.0, samples=20), "monotone": False, "tolerance": 0.1, "nodes": 2}
+            | {"duration": 0.1},
+        ),
         "joint_bounds": (hf.joint_bounds, {**at_planar, "target": target, "seed": 0, "starts": 4}),
         "load": (hf.load, {"path": folder / "none"}),
         "optimise": (

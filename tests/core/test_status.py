@@ -23,6 +23,7 @@ CODES = {
     "SLOWED": 7,
     "DEGENERATE": 8,
     "NOT_DEFINED": 9,
+    "INACCURATE": 10,
     "NOT_COMPUTED": 255,
 }
 

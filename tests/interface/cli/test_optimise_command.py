@@ -274,7 +274,7 @@ def test_a_file_without_poses(refused, tmp_path):
 
 def test_the_list_of_commands_names_what_is_needed(cli):
     _, out, _ = cli("--help")
-    assert "(needs the extra 'physics')" in " ".join(out.replace("│", " ").split())
+    assert "(needs the extra 'view')" in " ".join(out.replace("│", " ").split())
     assert "optimise" in out
 
 

@@ -15,14 +15,14 @@ FRICTION = hf.Friction(coulomb=[2, 8, 2, 4, 0.5, 0.5, 0.2])
 
 def test_it_is_the_library(ask):
     expected = hf.stow(hf.arms.load("panda"), START, friction=FRICTION, samples=3000)
-    data = ask("stow", "panda", "--from", HOME, *COMMON)
+    data = ask("stow", "panda", "--start", HOME, *COMMON)
     assert data == expected.to_dict()
     assert data["holds"] is True
 
 
 def test_a_path_is_reported_and_written(cli, tmp_path):
     code, out, _ = cli(
-        "stow", "panda", "--from", HOME, *COMMON, "--path", "--tolerance", "0.5", "--nodes", "100", "--out", tmp_path / "out"
+        "stow", "panda", "--start", HOME, *COMMON, "--path", "--tolerance", "0.5", "--nodes", "100", "--out", tmp_path / "out"
     )
     assert code == 0
     assert "The path takes" in out
@@ -38,11 +38,11 @@ def test_exit_code_3_if_nothing_holds(cli):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--path"], "give it to stow as at (--from)"),
-        (["--from", "1 2"], "has 2 values"),
+        (["--path"], "give it to stow as at (--start)"),
+        (["--start", "1 2"], "has 2 values"),
         (["--factor", "0.1"], "factor is 0.1"),
         (["--speeds", "1,x"], "--speeds: 'x' is not a number"),
-        (["--monotone", "--from", HOME, "--tolerance", "-1"], "tolerance is -1"),
+        (["--monotone", "--start", HOME, "--tolerance", "-1"], "tolerance is -1"),
     ],
 )
 def test_a_wrong_option_is_one_sentence(cli, options, message):

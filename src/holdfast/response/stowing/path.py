@@ -101,7 +101,7 @@ def plan_stow_path(
     """
     start = stow.at
     if start is None or stow.speeds is None:
-        raise InputError("the path needs a start; give it to stow as at (--from)")
+        raise InputError("the path needs a start; give it to stow as at (--start)")
     metric = JointMetric("time", 1 / stow.speeds)
     if not (np.isfinite(tolerance) and tolerance >= 0):
         raise InputError(f"tolerance is {tolerance:g} m; it must be a finite number of 0 or more")

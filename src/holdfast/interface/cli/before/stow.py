@@ -8,15 +8,15 @@ import typer
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions, ClearanceOptions, FrictionOptions, MountingOptions, OutputOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, SeedOption
+from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, SeedOption, StartDegreesOption
 from holdfast.interface.cli.values import read_configuration, read_numbers
 
 
 def command(
     arm: ArmArgument,
-    start: Annotated[str | None, typer.Option("--from", help="Present configuration in rad and m. Default: none.")] = None,
-    path: Annotated[bool, typer.Option("--path", help="Plan the path with the smallest drops from --from.")] = False,
-    monotone: Annotated[bool, typer.Option("--monotone", help="Admit only paths along which the drop never rises.")] = False,
+    start: Annotated[str | None, "Present configuration in rad and m. Default: none."] = None,
+    path: Annotated[bool, "Plan the path with the smallest drops from --start."] = False,
+    monotone: Annotated[bool, "Plan a path along which the drop never rises by more than the tolerance."] = False,
     tolerance: Annotated[float, "Tolerance of the drop along the path in m."] = 0.01,
     nodes: Annotated[int, "Number of nodes of the roadmap of the path."] = 3000,
     factor: Annotated[float, "Required ratio of the friction of each joint to the torque that it must hold."] = 1.5,
@@ -27,7 +27,7 @@ def command(
     friction: FrictionOptions = FrictionOptions(),
     placement: MountingOptions = MountingOptions(),
     apart: ClearanceOptions = ClearanceOptions(),
-    degrees: Annotated[bool, "Read --from in degrees (prismatic joints: m)."] = False,
+    degrees: StartDegreesOption = False,
     seed: SeedOption = 1,
     chain: ArmSourceOptions = ArmSourceOptions(),
     output: OutputOptions = OutputOptions(),
@@ -37,14 +37,14 @@ def command(
     Friction and stops hold the arm there. Along the path, a power loss at any instant drops the tool by no more than from the
     start. Exit code: 0 if the arm holds and the requested path was found, else 3.
 
-    Example: holdfast stow panda --from "0 -45 0 -135 0 90 45" --degrees --coulomb 2,8,2,4,0.5,0.5,0.2 --path
+    Example: holdfast stow panda --start "0 -45 0 -135 0 90 45" --degrees --coulomb 2,8,2,4,0.5,0.5,0.2
     """
     apart.check_consistency()
     model = placement.mount_arm(chain.resolve_arm(arm))
     limits = None if speeds is None else read_numbers("--speeds", speeds, f"one number or {model.n} numbers")
     stow = hf.stow(
         model,
-        None if start is None else read_configuration(model, start, degrees, "--from"),
+        None if start is None else read_configuration(model, start, degrees, "--start"),
         friction=friction.read_friction(model),
         factor=factor,
         clearance=apart.build_clearance(model) or False,
