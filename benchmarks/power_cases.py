@@ -56,7 +56,7 @@ def drop_errors(name: str, friction: hf.Friction, samples: int, time: float) -> 
     arm = hf.arms.load(name)
     q = np.random.default_rng(2).uniform(arm.lower, arm.upper, (samples, arm.n))
     simulated = hf.power_loss(arm, q, friction=friction, stops=False, duration=time).drop_at(time)
-    predicted = hf.susceptibility.tool_drop(arm)(q) * time**2 / 2
+    predicted = hf.susceptibility.tool_drop_with_friction(arm, friction)(q) * time**2 / 2
     error = np.abs(predicted - simulated) / np.maximum(np.abs(simulated), 1e-6)
     return float(np.median(error)), float(np.quantile(error, 0.9)), float(spearmanr(predicted, simulated).statistic)
 

@@ -105,7 +105,7 @@ INPUTS = named(
         "response.diagnosis": "ExternalForce RecordedEpisode Recording Sensors",
         "kinematics.indices": "Index",
         "kinematics.tool_constraints": "ToolConstraint",
-        "kinematics.indices.susceptibility": "SusceptibilityFormula Susceptibility SwingEnergy",
+        "kinematics.indices.susceptibility": "SusceptibilityFormula Susceptibility SwingEnergy FrictionToolDrop",
         "kinematics.paths": "Constant Path TimedPath Trapezoid",
         "studies": "StudyFile",
         "interface.studio": "State Studio",

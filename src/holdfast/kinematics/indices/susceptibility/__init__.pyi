@@ -1,4 +1,6 @@
 from holdfast.kinematics.indices.susceptibility.formulas import SusceptibilityFormula as SusceptibilityFormula
+from holdfast.kinematics.indices.susceptibility.friction_drop import FrictionToolDrop as FrictionToolDrop
+from holdfast.kinematics.indices.susceptibility.friction_drop import tool_drop_with_friction as tool_drop_with_friction
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility as Susceptibility
 from holdfast.kinematics.indices.susceptibility.measure import SusceptibilityBatch as SusceptibilityBatch
 from holdfast.kinematics.indices.susceptibility.measure import SusceptibilityEvaluation as SusceptibilityEvaluation

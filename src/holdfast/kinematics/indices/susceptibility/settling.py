@@ -11,10 +11,8 @@ from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.linalg import HouseholderQR
-from holdfast.kernels.program import SX
-from holdfast.kinematics.indices.objective import Objective, ObjectivePart
 from holdfast.kinematics.indices.susceptibility.formulas import require_inertia
+from holdfast.kinematics.indices.susceptibility.numeric import NumericObjective
 from holdfast.model.arm import kinematics, statics
 from holdfast.model.arm.configurations import as_configurations
 from holdfast.model.arm.model import Arm
@@ -25,7 +23,7 @@ _MAX_STEPS = 2000
 _SETTLED_STEP = 1e-12  # rad or m
 
 
-class SwingEnergy(Objective):
+class SwingEnergy(NumericObjective):
     """Potential energy at a configuration, minus that at the equilibrium to which the free joints sink; smaller is better.
 
     The joints in ``free`` sink slowly, as with strong viscous friction, until they hang still or lie against their stops. All
@@ -41,7 +39,6 @@ class SwingEnergy(Objective):
         self.arm, self.free = arm, read_joint_set(arm, free)
         require_inertia(arm, self.free)
         self.name, self.better, self.unit = "swing energy", "smaller", "J"
-        self._measured = ca.SX.sym("swing_energy", 1 + arm.n)
 
     @cached_property
     @cached_kernel
@@ -55,7 +52,6 @@ class SwingEnergy(Objective):
     def _evaluate_terms(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return the energy (N,), the gravity torques (N, n), their Jacobian, and the inertia matrix (N, n, n)."""
         n, values = self.arm.n, self._kernel.rows(q)
-        # Kernels store matrices by columns; both are symmetric.
         stiffness, inertia = values[:, 1 + n :].reshape(-1, 2, n, n).swapaxes(0, 1)
         return values[:, 0], values[:, 1 : 1 + n], stiffness, inertia
 
@@ -90,23 +86,6 @@ class SwingEnergy(Objective):
         steps = np.einsum("nik,nk->ni", back, slopes / (np.maximum(curvatures, -damping) + damping + 1e-300))
         return np.asarray(-steps * sinks)
 
-    def __call__(self, q: ArrayLike) -> FloatArray:
-        """Return the energy in J, (N,) or a scalar, at ``q`` (N, n) or (n,), rad and m."""
-        rows, single = as_configurations(self.arm, q)
-        energy = self.measure(rows)[:, 0]
-        return np.asarray(energy[0]) if single else energy
-
-    def gradient(self, q: ArrayLike) -> FloatArray:
-        """Return the exact gradient of the energy at ``q`` (N, n) or (n,), of the same shape, J/rad and N."""
-        rows, single = as_configurations(self.arm, q)
-        gradient = self.measure(rows)[:, 1:]
-        return gradient[0] if single else gradient
-
-    @property
-    def measured(self) -> SX | None:
-        """Symbols of the energy and its gradient; see :class:`holdfast.kinematics.indices.Objective`."""
-        return self._measured
-
     def measure(self, q: FloatArray) -> FloatArray:
         """Return the energies and their gradients, (N, 1 + n), at ``q`` (N, n), rad and m."""
         lowest = self.settle(q)
@@ -114,12 +93,6 @@ class SwingEnergy(Objective):
         lowest_energy, lowest_torques, *_ = self._evaluate_terms(lowest)
         is_held = ~np.isin(np.arange(self.arm.n), self.free) | ((lowest == q) & ((q < self.arm.lower) | (q > self.arm.upper)))
         return np.column_stack([energy - lowest_energy, torques - is_held * lowest_torques])
-
-    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[ObjectivePart]:
-        """Return minus the energy and its slopes; arguments as for other objectives."""
-        del q, j, qr
-        slopes = [-ca.dot(self._measured[1:], direction) for direction in directions]
-        return [ObjectivePart(1.0, [-self._measured[0]], [slopes])]
 
 
 @check_arguments
