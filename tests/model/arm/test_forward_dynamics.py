@@ -11,7 +11,14 @@ import pytest
 import dynamics as pinocchio_view
 import holdfast as hf
 import oracles
+from holdfast.kernels import linalg
 from holdfast.model.arm import dynamics, statics
+
+
+def forward_dynamics(arm, q, qd, torque):
+    """Accelerations from the inertia matrix and the bias, as the steps of a fall combine them."""
+    rows = [ca.horzsplit(row) for row in ca.vertsplit(statics.inertia_matrix(arm, q))]
+    return ca.vertcat(*linalg.solve_spd(rows, ca.vertsplit(ca.densify(torque - dynamics.bias_torques(arm, q, qd)))))
 
 
 def symbols(n):
@@ -22,7 +29,7 @@ def symbols(n):
 def test_accelerations_and_inertia_are_pinocchios(rng, draw):
     arm = oracles.with_bodies(oracles.random_arm(rng), rng, payload=draw % 2 == 0, armature=draw % 3 == 0)
     q, qd, torque = symbols(arm.n)
-    outputs = [dynamics.forward_dynamics(arm, q, qd, torque), statics.inertia_matrix(arm, q)]
+    outputs = [forward_dynamics(arm, q, qd, torque), statics.inertia_matrix(arm, q)]
     made = ca.Function("made", [q, qd, torque], outputs)
     model, data, _ = pinocchio_view.to_pinocchio(arm)
     for state in rng.normal(size=(5, 3, arm.n)):
@@ -37,7 +44,7 @@ def test_accelerations_and_inertia_are_pinocchios(rng, draw):
 def test_accelerations_are_mujocos(rng):
     arm = oracles.with_bodies(oracles.random_arm(rng, types="RPRR"), rng, payload=True, armature=True)
     q, qd, torque = symbols(arm.n)
-    made = ca.Function("made", [q, qd, torque], [dynamics.forward_dynamics(arm, q, qd, torque)])
+    made = ca.Function("made", [q, qd, torque], [forward_dynamics(arm, q, qd, torque)])
     model = arm.to_mujoco().compile()
     data = mujoco.MjData(model)
     for state in rng.normal(size=(5, 3, arm.n)) * [[0.05], [1.0], [1.0]]:
@@ -58,5 +65,5 @@ def test_gravity_torque_is_the_gradient_of_the_potential_energy(rng):
 def test_the_panda_takes_at_most_1800_operations():
     arm = hf.arms.load("panda")
     inputs = symbols(arm.n)
-    made = ca.Function("made", inputs, [dynamics.forward_dynamics(arm, *inputs)], {"cse": True})
+    made = ca.Function("made", inputs, [forward_dynamics(arm, *inputs)], {"cse": True})
     assert made.n_instructions() - 4 * arm.n <= 1800

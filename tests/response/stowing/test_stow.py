@@ -99,7 +99,7 @@ def test_a_path_around_an_obstacle(panda, stowed):
     middle = panda.forward_kinematics((START + stowed.q) / 2)[:3, 3]
     cell = hf.Cell([hf.cell.Box("post", size=[0.06] * 3, pose=oracles.pose(None, middle))])
     blocked = hf.stow(panda, START, cell=cell, **SEARCH)
-    path = hf.plan_stow_path(blocked, nodes=400, tolerance=0.3, duration=1.0)
+    path = hf.plan_stow_path(blocked, nodes=400, tolerance=0.6, duration=0.5)
     assert path.straight is None
     assert path.is_found
     assert blocked.clearance(np.array([q for q, _ in dense(path)])).min() > 0

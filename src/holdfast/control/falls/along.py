@@ -63,7 +63,7 @@ class DropCurve(Result):
 
     @property
     def exposure(self) -> float:
-        """Integral of the drop over time, m s: expected drop for a power loss at a uniformly random instant, times duration."""
+        """Integral of the drop over time, m s: the mean drop for a power loss at a random instant, times the duration."""
         return float(np.trapezoid(self.drop, self.time))
 
     @property
@@ -87,14 +87,13 @@ class DropCurve(Result):
         return self.time[rows], np.array([self.falls.physical(row).drop for row in track("falls", rows.tolist())])
 
     def find_hold_up_time(self, below: float) -> float | None:
-        """Return the first instant from which on the drop stays at or below a limit in m; None if there is none.
+        """Return the time since the start, s, after which the drop stays at or below a limit, m; None if it does not.
 
-        If the arm starts this motion when the supply fails, its drives must be supplied for this time, s.
+        If the arm starts this motion when the supply fails, a buffer must supply its drives for this time.
         """
         above = np.flatnonzero(~(self.drop <= below))
-        if not above.size:
-            return float(self.time[0])
-        return None if above[-1] + 1 == len(self.time) else float(self.time[above[-1] + 1])
+        first_safe = above[-1] + 1 if above.size else 0
+        return None if first_safe == len(self.time) else float(self.time[first_safe] - self.time[0])
 
 
 @check_arguments
@@ -131,19 +130,21 @@ def power_loss_along(
         )
     free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free")))
 
-    def simulate() -> PowerLoss:
-        return power_loss(arm, motion, speeds * free, **options).require_ok()
+    def simulate(rows: FloatArray, row_rates: FloatArray) -> PowerLoss:
+        return power_loss(arm, rows, row_rates * free, **options).require_ok()
 
-    falls = simulate()
+    falls = simulate(motion, speeds)
+    drops = falls.drop
     for _ in range(MAX_REFINEMENTS if refine else 0):
-        changes = np.abs(np.diff(falls.drop))
-        gaps = np.flatnonzero(changes > REFINED_CHANGE_FRACTION * np.abs(falls.drop).max())
+        gaps = np.flatnonzero(np.abs(np.diff(drops)) > REFINED_CHANGE_FRACTION * np.abs(drops).max())
         if not gaps.size:
             break
         middle_q, middle_rates = _interpolate_middle(instants, motion, speeds, gaps)
         instants = np.insert(instants, gaps + 1, (instants[gaps] + instants[gaps + 1]) / 2)
         motion, speeds = np.insert(motion, gaps + 1, middle_q, axis=0), np.insert(speeds, gaps + 1, middle_rates, axis=0)
-        falls = simulate()
+        drops = np.insert(drops, gaps + 1, simulate(middle_q, middle_rates).drop)
+    if len(drops) > len(falls):
+        falls = simulate(motion, speeds)
     return DropCurve(time=instants, falls=falls, rates_from="fitted" if rates is None else "given")
 
 

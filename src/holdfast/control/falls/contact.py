@@ -169,7 +169,9 @@ class ContactSearch:
             np.minimum.at(latest, falls[touching], after.time[touching])
             is_possible = touching | (before.distances + after.distances < change)
             is_coarse = is_possible & np.where(touching, duration > TIME_RESOLUTION_S, change >= MIN_DISTANCE_CHANGE_M)
-            fraction = before.distances / np.where(touching, before.distances - after.distances, 1.0)
+            # A span that begins in contact has its contact at its beginning.
+            approach = np.maximum(before.distances - after.distances, 1e-300)
+            fraction = np.where(touching & (before.distances > 0), before.distances / approach, 0.0)
             instants = np.where(touching & ~is_coarse, before.time + fraction * duration, np.inf)
             order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
             order = order[instants[order] < time[falls[order]]]

@@ -52,10 +52,9 @@ def power_loss(
 
     From time 0 on the joints in ``free`` transmit only friction. All other joints are held exactly. With dry friction or stops
     the steps have order 2 and contain stiction, impacts on the stops, and brakes; otherwise they have order 4. With a cell or a
-    clearance, a fall ends at the first contact of the arm with an object or with itself. The bodies of
-    the arm are the spheres and capsules around its links, so contacts come early rather than late. Each fall is simulated
-    twice, the second time with twice the step, for its ``error``. A frictionless arm without stops is chaotic: after about a
-    second its error may be as large as the arm.
+    clearance, a fall ends at the first contact of the arm with an object or with itself. Spheres and capsules enclose the
+    links, so contacts come early rather than late. Each fall is simulated twice, the second time with twice the step, for its
+    ``error``. A frictionless arm without stops is chaotic: after about a second its error may be as large as the arm.
 
     Args:
         arm: The arm, with inertial data for every link.

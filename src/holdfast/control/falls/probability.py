@@ -17,7 +17,7 @@ from holdfast.core.probability.intervals import Interval
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Result
 from holdfast.core.status import Status
-from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.regions.region import Region
 from holdfast.kinematics.solvers.inverse_kinematics import solve_ik
@@ -54,11 +54,6 @@ class DropProbability(Result):
     def unit(self) -> str:
         """Unit of the measure."""
         return MEASURE_UNITS[self.measure]
-
-    @property
-    def is_below(self) -> BoolArray:
-        """(N,) True where the limit is met."""
-        return np.asarray(~(self.value > self.below))
 
     def interval(self, below: float | None = None, confidence: float = 0.95) -> Interval:
         """Return the fraction of falls at or below a limit (default: ``below``) with its Clopper-Pearson interval."""

@@ -223,7 +223,7 @@ class DryFrictionStepper(PassiveArm):
         after = ca.if_else(is_rounding, 0.0, solution.rates)
         q = parts["q"] + h / 2 * (parts["rates"] + after)
         for limit, outwards in ((self.lower, -1.0), (self.upper, 1.0)):
-            # Also a joint that ceases to move beside its stop: else each step would be cut where it could reach the stop.
+            # This includes a joint that ceases to move next to its stop, because it would shorten every later step.
             arrives = ca.logic_and(outwards * (q - limit) >= -STOP_TOLERANCE, outwards * after >= 0)
             arrives = ca.logic_and(arrives, ca.logic_not(conditions.is_impact))
             is_there = ca.logic_and(self.symbols["free"], ca.logic_or(arrives, outwards * (q - limit) > 0))

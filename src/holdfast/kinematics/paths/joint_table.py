@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from holdfast.core.errors import InputError
 from holdfast.core.files.csv_table import CsvTable, read_csv_table
+from holdfast.core.typing import FloatArray
 from holdfast.model.arm.model import Arm
 
 
@@ -41,3 +44,24 @@ def read_joint_table(arm: Arm, file: Path, content_name: str, leading_column: st
                 f"{', '.join([leading_column, *required])}"
             )
     return table
+
+
+def is_motion_table(file: Path) -> bool:
+    """Return True for a table whose first column is ``time_s``."""
+    return file.is_file() and file.read_bytes()[:6] == b"time_s"
+
+
+def read_motion_table(arm: Arm, file: Path) -> tuple[FloatArray, FloatArray]:
+    """Read a table with ``time_s`` and one column for each joint of an arm.
+
+    Returns:
+        Times (T,), s, and configurations (T, n), rad and m.
+
+    Raises:
+        InputError: The file cannot be read, a column is missing, or the time does not increase over two lines or more.
+    """
+    table = read_joint_table(arm, file, "motion", "time_s")
+    numbers = table.select_columns(["time_s", *joint_columns(arm)])
+    if len(numbers) < 2 or not (np.diff(numbers[:, 0]) > 0).all():
+        raise InputError(f"{table.title}: its time must increase over two lines or more")
+    return numbers[:, 0], numbers[:, 1:]

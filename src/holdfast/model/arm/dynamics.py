@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.kernels import linalg
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
@@ -136,18 +135,6 @@ def bias_torques(arm: ArmData, q: SX, qd: SX) -> SX:
     """Return torques and forces (n,) of a motion without acceleration and friction, ``C(q, qd) qd + g(q)``, N m and N."""
     gravity = statics.gravity_torques(arm, statics.composite_bodies(arm, q))
     return inertial_torques(arm, q, qd, ca.SX(arm.n, 1)) + gravity
-
-
-def forward_dynamics(arm: ArmData, q: SX, qd: SX, torque: SX) -> SX:
-    """Return the joint accelerations (n,), rad/s^2 and m/s^2, of torques and forces (n,), N m and N.
-
-    Viscous friction is not included; the caller subtracts :func:`viscous_torques` from the torques.
-
-    Raises:
-        ArmError: The mass or inertia of a link is unknown, or impossible for a body.
-    """
-    rows = [ca.horzsplit(row) for row in ca.vertsplit(statics.inertia_matrix(arm, q))]
-    return ca.vertcat(*linalg.solve_spd(rows, ca.vertsplit(ca.densify(torque - bias_torques(arm, q, qd)))))
 
 
 def _point_acceleration(angular_velocity: SX, angular_acceleration: SX, r: SX) -> SX:

@@ -13,15 +13,17 @@ from scipy.spatial import KDTree
 
 from holdfast.control.falls.along import DropCurve, power_loss_along
 from holdfast.control.falls.power_cut import power_loss
+from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
+from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.stowing.pose import StowPose, sample_with_stops
 
-EDGE_SAMPLES = 8  # inner configurations of an edge whose falls are simulated
+EDGE_SAMPLES = (10, 33)  # configurations of an edge whose falls are simulated: few at first, and more if these are admissible
 NEIGHBOR_COUNT = 16
 NEAR_LINE_RAD = 0.3  # rad or m: standard deviation of nodes about the straight line
 SMALL_DROP_M = 1e-3  # added to every drop, so that a path without drops is short
@@ -43,7 +45,7 @@ class StowPath(Result):
         q: (K, n) waypoints, rad and m; (0, n) if no path was found.
         time: (K,) time at each waypoint, s.
         bound: Largest allowed drop, m: that from rest at the start, plus the tolerance.
-        monotone: True if the drop may rise along the path by at most the tolerance.
+        monotone: True if the drop exceeds no earlier drop by more than the tolerance.
         tolerance: Tolerance, m.
         curve: Drop for a power loss at instants of the motion along the path; None if no path was found.
         straight: The same for the straight line at full speed; None if the line is in collision.
@@ -88,7 +90,7 @@ def plan_stow_path(
 
     Args:
         stow: Result of :func:`holdfast.stow` with a start.
-        monotone: True to admit only paths along which the drop never rises by more than the tolerance.
+        monotone: True to admit only paths on which the drop exceeds no earlier drop by more than the tolerance.
         tolerance: Tolerance of the drop, m.
         nodes: Number of nodes of the roadmap.
         duration: Duration of every simulated fall, s.
@@ -152,16 +154,16 @@ class _Roadmap:
     def simulate_drops(self, q: FloatArray, rates: FloatArray | None = None) -> FloatArray:
         """Return the drops (N,) after power losses in configurations (N, n), m; infinite if the simulation failed."""
         fall = power_loss(self.arm, q, rates, step=ROADMAP_STEP_S, **self.options)
-        return np.where(fall.status == 0, fall.drop, np.inf)
+        return np.where(fall.status == Status.OK, fall.drop, np.inf)
 
     def add_nodes(self, count: int) -> None:
         """Add random nodes whose drop respects the bound: anywhere, near the straight line, and in the box of both ends."""
         start, end = self.q[:2]
-        fractions = self.rng.uniform(size=(3, count, self.arm.n))
+        fractions = self.rng.uniform(size=(count, self.arm.n))
         line = start + self.rng.uniform(size=(count, 1)) * (end - start)
         anywhere = sample_with_stops(self.rng, count, self.space.low, self.space.high)
         near_line = line + self.rng.normal(scale=NEAR_LINE_RAD, size=line.shape)
-        staggered = np.where(fractions[0] < 1 / 3, start, np.where(fractions[0] < 2 / 3, end, line))
+        staggered = np.where(fractions < 1 / 3, start, np.where(fractions < 2 / 3, end, line))
         kind = self.rng.integers(0, 3, (count, 1))
         q = np.clip(np.choose(kind, [anywhere, near_line, staggered]), self.space.low, self.space.high)
         q = np.unique(q[self.space.are_valid(q)], axis=0)
@@ -172,7 +174,8 @@ class _Roadmap:
 
     def find_path(self) -> FloatArray:
         """Return the waypoints (K, n) of the path with the smallest exposure, or (0, n)."""
-        first, second = self._list_edges()
+        first, second = self._edges
+        edge_indices = {pair: index for index, pair in enumerate(zip(first.tolist(), second.tolist(), strict=True))}
         costs = self._estimate_costs(first, second)
         is_checked = np.zeros(len(first), dtype=bool)
         for _ in track("searches of the roadmap", range(MOST_ROUNDS), most=True):
@@ -185,16 +188,27 @@ class _Roadmap:
             while nodes[-1]:
                 nodes.append(int(before[nodes[-1]]))
             nodes.reverse()
-            edges = [self._edge_index[pair] for pair in pairwise(nodes)]
+            edges = [edge_indices[pair] for pair in pairwise(nodes)]
             unchecked = np.array([edge for edge in edges if not is_checked[edge]], dtype=np.intp)
             if not unchecked.size:
-                return self._shorten(self.q[nodes])
+                rising = self._find_rising_piece(self.q[nodes]) if self.monotone else None
+                if rising is None:
+                    return self.q[nodes] if self.monotone else self._shorten(self.q[nodes])
+                costs[edges[rising]] = np.inf
+                continue
             costs[unchecked] = self.check_edges(self.q[first[unchecked]], self.q[second[unchecked]])
             is_checked[unchecked] = True
         return self.q[:0]
 
-    def _list_edges(self) -> tuple[IndexArray, IndexArray]:
-        """Return the directed edges (E,) between near nodes."""
+    def _find_rising_piece(self, q: FloatArray) -> int | None:
+        """Return the piece of a path (K, n) on which the drop first exceeds an earlier drop by more than the tolerance."""
+        drops = self._simulate_samples(q[:-1], q[1:], EDGE_SAMPLES[-1])
+        rises = drops.ravel() - np.minimum.accumulate(drops.ravel())
+        return int(np.argmax(rises > self.tolerance)) // EDGE_SAMPLES[-1] if (rises > self.tolerance).any() else None
+
+    @cached_property
+    def _edges(self) -> tuple[IndexArray, IndexArray]:
+        """First and second nodes (E,) of the collision-free edges between near nodes, which do not depend on the speed."""
         scaled = self.q * self.metric.scale
         neighbors = KDTree(scaled).query(scaled, k=min(NEIGHBOR_COUNT, len(scaled)), p=np.inf)[1]
         first, second = np.repeat(np.arange(len(scaled)), neighbors.shape[1]), neighbors.ravel()
@@ -202,7 +216,7 @@ class _Roadmap:
         pairs = pairs[:, pairs[0] != pairs[1]]
         if self.monotone:
             pairs = pairs[:, self.drop[pairs[1]] <= self.drop[pairs[0]] + self.tolerance]
-        self._edge_index = {pair: index for index, pair in enumerate(zip(*pairs.tolist(), strict=True))}
+        pairs = pairs[:, self.space.are_segments_valid(self.q[pairs[0]], self.q[pairs[1]])]
         return pairs[0], pairs[1]
 
     def _estimate_costs(self, first: IndexArray, second: IndexArray) -> FloatArray:
@@ -210,25 +224,36 @@ class _Roadmap:
         return np.asarray(times * ((self.drop[first] + self.drop[second]) / 2 + SMALL_DROP_M))
 
     def check_edges(self, first: FloatArray, second: FloatArray) -> FloatArray:
-        """Return the exposures (E,) of edges between configurations (E, n), m s; infinite for inadmissible ones."""
+        """Return the exposures (E,) of collision-free edges from and to (E, n), m s; infinite if a drop is too large."""
         self.checked_edges += len(first)
-        is_admissible = self.space.are_segments_valid(first, second)
-        fractions = np.linspace(0, 1, EDGE_SAMPLES + 2)[:, None]
-        samples = first[is_admissible, None] + fractions * (second - first)[is_admissible, None]
-        samples = np.clip(samples, self.space.low, self.space.high)  # against rounding at a limit
-        times = self.metric.measure_length((second - first)[is_admissible])
-        rates = np.broadcast_to(((second - first)[is_admissible] / times[:, None])[:, None], samples.shape)
-        drops = self.simulate_drops(samples.reshape(-1, self.arm.n), rates.reshape(-1, self.arm.n)).reshape(-1, len(fractions))
+        costs, rows = np.full(len(first), np.inf), np.arange(len(first))
+        for sample_count in EDGE_SAMPLES:
+            exposures = self._sample_exposures(first[rows], second[rows], sample_count)
+            rows, exposures = rows[np.isfinite(exposures)], exposures[np.isfinite(exposures)]
+        costs[rows] = exposures
+        return costs
+
+    def _sample_exposures(self, first: FloatArray, second: FloatArray, sample_count: int) -> FloatArray:
+        """Return the exposures (E,) from falls at samples of each edge; infinite if one of them exceeds its bound."""
+        drops, times = self._simulate_samples(first, second, sample_count), self.metric.measure_length(second - first)
         is_low = drops.max(axis=1, initial=-np.inf) <= self.bound
         if self.monotone:
             is_low &= (drops - np.minimum.accumulate(drops, axis=1)).max(axis=1, initial=0) <= self.tolerance
-        costs = np.full(len(first), np.inf)
-        costs[is_admissible] = np.where(is_low, times * (np.maximum(drops, 0).mean(axis=1) + SMALL_DROP_M), np.inf)
-        return costs
+        return np.where(is_low, times * (np.maximum(drops, 0).mean(axis=1) + SMALL_DROP_M), np.inf)
+
+    def _simulate_samples(self, first: FloatArray, second: FloatArray, sample_count: int) -> FloatArray:
+        """Return the drops (E, sample_count) on edges, after power losses during motions at the speed limits, m."""
+        fractions = np.linspace(0, 1, sample_count)[:, None]
+        samples = first[:, None] + fractions * (second - first)[:, None]
+        samples = np.clip(samples, self.space.low, self.space.high)  # against rounding at a limit
+        times = self.metric.measure_length(second - first)
+        rates = np.broadcast_to(((second - first) / times[:, None])[:, None], samples.shape)
+        return self.simulate_drops(samples.reshape(-1, self.arm.n), rates.reshape(-1, self.arm.n)).reshape(-1, sample_count)
 
     def _shorten(self, q: FloatArray) -> FloatArray:
         """Return the best path over a subset of the waypoints."""
         pairs = np.array([(i, k) for i in range(len(q)) for k in range(i + 1, len(q))])
+        pairs = pairs[self.space.are_segments_valid(q[pairs[:, 0]], q[pairs[:, 1]])]
         costs = self.check_edges(q[pairs[:, 0]], q[pairs[:, 1]])
         best, before = np.full(len(q), np.inf), np.zeros(len(q), dtype=int)
         best[0] = 0

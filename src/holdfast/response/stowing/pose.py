@@ -14,6 +14,7 @@ from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
+from holdfast.core.status import Status
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.holding.static_check import HoldCheck, holds
@@ -45,7 +46,7 @@ class StowPose(Result):
         at: (n,) configuration from which the arm comes, rad and m; None if it was not given.
         duration: Time of the straight motion from ``at`` at the speed limits, s; None without ``at``.
         fall: Fall from ``q``, until the first contact if contacts are checked.
-        found: Number of sampled configurations that hold with the factor and are free of collisions.
+        found: Number of the best 200 candidates, all free of collisions, that hold with the factor.
         samples: Number of configurations that were sampled.
         friction: Friction as requested; None as the arm states.
         clearance: Collision model; None if collisions are not checked.
@@ -139,7 +140,7 @@ def stow(
     def measure_excess(q: FloatArray) -> FloatArray:
         """Return the smallest surplus (N,) of friction over the required torque, N m; 0 or more if the arm holds.
 
-        With a start, a surplus above 0 counts as 0, because then only the way to the configuration matters.
+        With a start, a surplus above 0 counts as 0, because then only the time to the configuration matters.
         """
         check = holds(arm, q, friction=friction)
         excess = np.asarray((check.available / factor - check.need).min(axis=1))
@@ -171,7 +172,7 @@ def stow(
         chosen = candidates[np.argmax(excess)]
     else:
         falls = power_loss(arm, candidates, friction=friction, clearance=model, step=4e-3)
-        chosen = candidates[np.argmin(falls.drop)]
+        chosen = candidates[np.argmin(np.where(falls.status == Status.OK, falls.drop, np.inf))]
     return StowPose(
         arm=arm,
         q=chosen,

@@ -16,7 +16,7 @@ def command(
     arm: ArmArgument,
     start: Annotated[str | None, "Present configuration in rad and m. Default: none."] = None,
     path: Annotated[bool, "Plan the path with the smallest drops from --start."] = False,
-    monotone: Annotated[bool, "Plan a path along which the drop never rises by more than the tolerance."] = False,
+    monotone: Annotated[bool, "Plan a path on which the drop exceeds no earlier drop by more than --tolerance."] = False,
     tolerance: Annotated[float, "Tolerance of the drop along the path in m."] = 0.01,
     nodes: Annotated[int, "Number of nodes of the roadmap of the path."] = 3000,
     factor: Annotated[float, "Required ratio of the friction of each joint to the torque that it must hold."] = 1.5,

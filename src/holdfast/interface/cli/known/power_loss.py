@@ -127,13 +127,12 @@ def _read_motion(arm: hf.Arm, path: Path, episode: int) -> tuple[NDArray[Any], N
     """Return times (T,), s, and configurations (T, n), rad and m, of a CSV table of joint values or of a recording."""
     import numpy as np
 
-    from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+    from holdfast.kinematics.paths.joint_table import is_motion_table, read_motion_table
     from holdfast.response.diagnosis import read_recording
 
-    if path.is_file() and path.read_bytes()[:6] == b"time_s":
-        numbers = read_joint_table(arm, path, "motion", "time_s").select_columns(["time_s", *joint_columns(arm)])
-        return numbers[:, 0], numbers[:, 1:]
-    recording = read_recording(path, episodes=[episode], joints=None)
+    if is_motion_table(path):
+        return read_motion_table(arm, path)
+    recording = read_recording(path, episodes=[episode])
     recorded = recording.episodes[0].q
     if recording.unit is None or recorded.shape[1] != arm.n:
         raise InputError(

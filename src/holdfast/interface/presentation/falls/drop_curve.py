@@ -45,7 +45,7 @@ def present(curve: DropCurve) -> Presentation:
     if contact is not None:
         answer += f" until {contact.link} touches {contact.object}, at {format_number(curve.impact_speed[worst], 3)} m/s"
     rows = [(1000 * limit, curve.find_hold_up_time(limit)) for limit in _LIMITS_M]
-    times = [("never" if time is None else f"{time - curve.time[0]:.3g} s") for _, time in rows]
+    times = [("never" if time is None else f"{time:.3g} s") for _, time in rows]
     table = TableSpec(
         "Time for which a buffered supply must drive the arm along this motion",
         [Header("limit_mm", "until the drop stays below", "mm"), Header("hold_up", "hold-up time")],

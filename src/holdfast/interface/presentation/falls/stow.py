@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.falls.drop_curve import draw_curves
@@ -80,7 +78,7 @@ def present(result: StowPose | StowPath) -> Presentation:
         figures={"drop": FigureSpec(partial(draw_curves, curves), "Drop over the instant of the power loss")} if curves else {},
         sections=partial(_build_view, result),
         method=[
-            ("Search", f"{stow.samples:,} configurations, seed {stow.seed}; {stow.found} of the best hold with the factor"),
+            ("Search", f"{stow.samples:,} configurations, seed {stow.seed}; {stow.found} of the best 200 hold"),
             ("Drops along the path", "simulated at sampled instants, with the joint rates, until the first contact"),
             *list_friction(stow.fall),
         ],
@@ -94,15 +92,12 @@ def _describe_stow(stow: StowPose) -> str:
             f"No configuration was found that holds with {format_number(stow.factor)} times the needed torque; the one with "
             f"the smallest drop is shown. {describe_drop(float(stow.fall.drop))}."
         )
-    if np.isinf(stow.check.factor):
-        return "The arm holds without power, because the stops carry every joint."
-    joint = stow.arm.joint_names[stow.check.joint]
-    return f"The arm holds without power: the smallest margin is {format_number(float(stow.check.margin), 3)} N m, of {joint}."
+    return hold_check.present(stow.check).answer
 
 
 def _describe_path(path: StowPath) -> str:
     if path.curve is None:
-        kind = " on which the drop never rises" if path.monotone else ""
+        kind = " on which the drop hardly rises" if path.monotone else ""
         return f"No path{kind} with drops of at most {format_distance(path.bound)} was found, which is no proof."
     speed = "" if path.speed_fraction == 1 else f", at {path.speed_fraction:g} of full speed"
     sentence = (

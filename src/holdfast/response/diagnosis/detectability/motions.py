@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
+from holdfast.kinematics.paths.joint_table import is_motion_table, read_motion_table
 from holdfast.model.arm.model import Arm
 from holdfast.response.faults.log import Log
 
@@ -23,15 +22,11 @@ def read_motion(arm: Arm, file: str | Path) -> tuple[FloatArray, float]:
         InputError: The file cannot be read, or has neither format.
     """
     path = Path(file)
-    first_bytes = path.read_bytes()[:6] if path.is_file() else b""
-    if first_bytes != b"time_s":
+    if not is_motion_table(path):
         log = Log.load(path)
         return log.q_ref, log.rate
-    table = read_joint_table(arm, path, "motion", "time_s")
-    numbers = table.select_columns(["time_s", *joint_columns(arm)])
-    if len(numbers) < 2 or not (np.diff(numbers[:, 0]) > 0).all():
-        raise InputError(f"{table.title}: its time must increase over two lines or more")
-    return numbers[:, 1:], float(1 / np.median(np.diff(numbers[:, 0])))
+    time, q = read_motion_table(arm, path)
+    return q, float(1 / np.median(np.diff(time)))
 
 
 def resample_motion(q: FloatArray, rate: float, new_rate: float) -> FloatArray:
