@@ -5,18 +5,19 @@ import { defineConfig, type UserConfig } from "vite";
 // built by a call with its own mode, so that no chunk is shared. All names are fixed: the server knows them.
 const pages: Record<string, string> = { station: "index.html", experimenter: "experimenter.html" };
 
-// `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold: one script that runs where it is put.
-const viewer: UserConfig = {
+// `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold, and `--mode arm_page` the page of an
+// arm: one script each, which runs where it is put.
+const script = (folder: string): UserConfig => ({
   publicDir: false,
   build: {
     outDir: resolve(import.meta.dirname, "../src/holdfast/interface/report/templates"),
     emptyOutDir: false,
     target: "es2022",
-    lib: { entry: "src/viewer/main.ts", formats: ["iife"], name: "holdfastView", fileName: () => "viewer.js" },
+    lib: { entry: `src/${folder}/main.ts`, formats: ["iife"], name: "holdfastView", fileName: () => `${folder}.js` },
   },
-};
+});
 
-export default defineConfig(({ mode }) => mode === "viewer" ? viewer : ({
+export default defineConfig(({ mode }) => mode === "viewer" || mode === "arm_page" ? script(mode) : ({
   base: "./",
   worker: { rolldownOptions: { output: { entryFileNames: "worker.js" } } },
   build: {

@@ -49,6 +49,8 @@ export interface ArmPageData {
   /** What a command calls the arm: a built-in name or a file. */
   argument: string;
   scene: Scene;
+  /** How a sentence names each joint, for example "joint 4". */
+  jointLabels: string[];
   /** Rows of the task (m x 6) that select from a twist in the world, linear part first. */
   taskRows: number[][];
   taskName: string;

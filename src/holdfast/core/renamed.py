@@ -21,6 +21,7 @@ OPTION_SUCCESSORS = {
     "--fresh": "--check-poses",
     "--inject": "--test-locks",
     "--notice": "--monitor",
+    "--view": "holdfast page ARM --out FILE",
 }
 _PUBLIC_NAMES = """
 holdfast: ceilings=index_bounds clearance=collision engine=sweeps keep=tool_constraints

@@ -31,6 +31,7 @@ PANEL_TITLES = {  # panels of the help in their order, by the folder of their co
 }
 COMMAND_MODULES = {  # module of each command, in the order of the help; it defines `command`, or the name after the colon
     "assess": "start.assess",
+    "page": "start.page",
     "studio": "start.studio",
     "describe": "start.arms:describe",
     "arms": "start.arms",

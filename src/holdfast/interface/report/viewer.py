@@ -121,12 +121,12 @@ def embed_viewer_library(html: str) -> str:
 
 
 # In a notebook, the frame around the page sends a message with the theme of the notebook, light or dark.
-_COLOR_SCHEME_SCRIPT = """<script>
+COLOR_SCHEME_SCRIPT = """
 addEventListener("message", ({ data, source }) => {
   if (source !== parent || typeof data?.dark !== "boolean") return;
   document.documentElement.style.colorScheme = data.dark ? "dark" : "light";
 });
-</script>"""
+"""
 
 
 def build_view_page(view: Markup, title: str) -> str:
@@ -134,7 +134,7 @@ def build_view_page(view: Markup, title: str) -> str:
     return embed_viewer_library(
         '<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n<meta charset="utf-8">\n'
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(title)}</title>\n{_COLOR_SCHEME_SCRIPT}\n</head>\n"
+        f"<title>{escape(title)}</title>\n<script>{COLOR_SCHEME_SCRIPT}</script>\n</head>\n"
         f"<body>\n<main>\n<h1>{escape(title)}</h1>\n{view}\n</main>\n</body>\n</html>\n"
     )
 

@@ -177,3 +177,10 @@ def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when:
     names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
     if names:
         out.print(f"[yellow]Joints outside their limits{when}: {escape(', '.join(names))}.[/]", soft_wrap=True)
+
+
+def build_page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
+    """Build the interactive page of an arm; options as in :func:`holdfast.interface.presentation.arm_page.build.build_page`."""
+    from holdfast.interface.presentation.arm_page import build
+
+    return build.build_page(arm, q, **options)

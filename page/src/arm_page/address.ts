@@ -1,0 +1,50 @@
+/** State of the page in the fragment of its address, so that a state can be shared and opened again. */
+
+import type { ArmPageData } from "./data";
+
+export type Condition = "healthy" | "locked" | "free";
+export const STEPS = ["healthy", "lock", "prepare", "undetected", "power"] as const;
+export type StepName = (typeof STEPS)[number];
+
+export interface PageState {
+  arm: string;
+  step: StepName;
+  /** Joint values, rad or m. */
+  q: number[];
+  conditions: Condition[];
+  /** Time from the power cut until the brakes close, ms. */
+  brakeDelay: number;
+}
+
+export function writeAddress(state: PageState): string {
+  const joints = (condition: Condition): string =>
+    state.conditions.flatMap((c, k) => (c === condition ? [k + 1] : [])).join(",");
+  const fields: Record<string, string> = {
+    arm: state.arm,
+    step: state.step,
+    q: state.q.map((value) => String(Number(value.toFixed(6)))).join(","),
+    locked: joints("locked"),
+    free: joints("free"),
+    brake: state.step === "power" ? String(state.brakeDelay) : "",
+  };
+  return `#${Object.entries(fields).filter(([, text]) => text).map(([key, text]) => `${key}=${encodeURIComponent(text)}`).join("&")}`;
+}
+
+/** Read a state; fields that are missing or do not fit the arm keep their defaults. */
+export function readAddress(fragment: string, data: ArmPageData, defaults: PageState): PageState {
+  const fields = new URLSearchParams(fragment.replace(/^#/, ""));
+  const state = { ...defaults, q: [...defaults.q], conditions: [...defaults.conditions] };
+  if (fields.get("arm") !== null && fields.get("arm") !== data.name) return state;
+  const step = STEPS.find((name) => name === fields.get("step"));
+  if (step) state.step = step;
+  const q = (fields.get("q") ?? "").split(",").map(Number);
+  if (fields.get("q") && q.length === state.q.length && q.every(Number.isFinite)) state.q = q;
+  for (const condition of ["locked", "free"] as const) {
+    for (const text of (fields.get(condition) ?? "").split(",")) {
+      if (Number(text) >= 1 && Number(text) <= state.q.length) state.conditions[Number(text) - 1] = condition;
+    }
+  }
+  const delay = Number(fields.get("brake") ?? "");
+  if (fields.get("brake") && delay >= 0 && delay <= 1000) state.brakeDelay = delay;
+  return state;
+}

@@ -1,0 +1,35 @@
+/** Starts the page of an arm: its first arm at once, and another one when the menu chooses it. */
+
+import type { Scene } from "../viewer/scene";
+import { View } from "../viewer/view";
+import { ArmPage } from "./arm_page";
+import type { ArmPageData, PrintedKernels } from "./data";
+
+declare const armKernels: Record<string, PrintedKernels>;
+
+const started = new Set<Element>();
+
+function start(section: HTMLElement): void {
+  const canvas = section.querySelector("canvas");
+  const box = section.querySelector<HTMLElement>(".view3d");
+  if (started.has(section) || !canvas || !box) return;
+  started.add(section);
+  const read = (selector: string): unknown => JSON.parse(section.querySelector(selector)?.textContent ?? "");
+  const scene = read(".view3d > script[type='application/json']") as Scene;
+  scene.parts = read(".view3d-body script") as Scene["parts"];
+  const data = { ...(read(".arm-data") as ArmPageData), scene };
+  new ArmPage(section, data, armKernels[data.name], (frames) => new View(box, canvas, scene, frames));
+  box.classList.add("view3d-live");
+}
+
+const sections = [...document.querySelectorAll<HTMLElement>(".arm")];
+const menu = document.querySelector<HTMLSelectElement>(".arm-menu");
+menu?.addEventListener("change", () => {
+  sections.forEach((section, k) => (section.hidden = k !== menu.selectedIndex));
+  start(sections[menu.selectedIndex]);
+});
+const asked = new URLSearchParams(location.hash.slice(1)).get("arm");
+const first = Math.max(0, sections.findIndex((section) => section.dataset.name === asked));
+if (menu) menu.selectedIndex = first;
+sections.forEach((section, k) => (section.hidden = k !== first));
+if (sections.length) start(sections[first]);

@@ -1,0 +1,423 @@
+/** The five steps of the story. Each one sets the joints, shows its controls, and adds to the picture. */
+
+import { h } from "../dom";
+import type { OverlayContent } from "../viewer/overlay";
+import type { Condition, StepName } from "./address";
+import type { ArmPage } from "./arm_page";
+import { simulateControl, type ControlledMotion } from "./closed_loop";
+import { createSvg, drawCurve } from "./curves";
+import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
+import { capitalise, fillText, formatAngle, formatLength, formatPercent, joinNames } from "./phrases";
+import { simulateFall, swingJoint, type Fall, type Swing } from "./power_loss";
+import { traceSelfMotion, type SelfMotion } from "./self_motion";
+
+const MAX_BRAKE_DELAY_MS = 500;
+const BRAKE_DELAY_STEP_MS = 10;
+const SLIDE_SPEED_SAMPLES_PER_PICTURE = 2; // on the way to the best configuration
+const PLAY_SPEED = 2; // simulated seconds per second
+export type TrailStyle = "solid" | "dotted" | "dashed";
+const TRAIL_STYLES: TrailStyle[] = ["solid", "dotted", "dashed"];
+
+export abstract class Step {
+  /** Configurations that the picture shows transparently. */
+  ghosts: ArrayLike<number>[] = [];
+
+  constructor(protected readonly page: ArmPage) {}
+
+  /** Set the joints and write the controls, after the visitor has chosen the step. */
+  abstract enter(): void;
+  /** Compute what belongs to a new configuration or condition. */
+  abstract update(): void;
+  /** Return the headline and its detail. */
+  abstract sentences(): [string, string];
+
+  /** Compute what takes longer than a picture, after a drag. */
+  rest(): void {}
+  /** Stop animations, before another step. */
+  leave(): void {}
+
+  /** Configuration that the picture shows. */
+  get configuration(): ArrayLike<number> {
+    return this.page.state.q;
+  }
+
+  overlay(): OverlayContent {
+    return {};
+  }
+
+  protected text(key: string, values: Record<string, string | number> = {}): string {
+    return fillText(this.page.data.texts[key], values);
+  }
+
+  protected button(key: string, action: () => void): HTMLButtonElement {
+    return h("button", { type: "button", onclick: action }, this.text(key));
+  }
+
+  protected slider(key: string, max: number, step: number, value: number, input: (value: number) => void): HTMLInputElement {
+    const slider = h("input", { type: "range", min: 0, max, step, value, "aria-label": this.text(key) });
+    slider.addEventListener("input", () => input(Number(slider.value)));
+    return slider;
+  }
+}
+
+export class HealthyStep extends Step {
+  enter(): void {
+    this.page.repairAll();
+  }
+
+  update(): void {}
+
+  sentences(): [string, string] {
+    const { fractions, worst, touched } = this.page;
+    if (!touched) return [this.text("healthy_before"), this.text("healthy_detail")];
+    const values = { joint: this.page.label(worst), share: formatPercent(fractions[worst]) };
+    return [this.text("healthy", values), this.text("healthy_detail")];
+  }
+}
+
+export class LockStep extends Step {
+  private lost: LostMotion[] = [];
+
+  enter(): void {
+    if (this.page.failed.length === 0) this.page.setCondition(this.page.worst, "locked");
+    const key = (style: string): Element => {
+      const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
+      svg.append(createSvg("ellipse", { class: `overlay-ellipsoid overlay-${style}`, cx: 17, cy: 5, rx: 15, ry: 4 }));
+      return h("span", { class: "law-key" }, svg as unknown as Node, this.text(`${style}_lock`));
+    };
+    this.page.controls.replaceChildren(
+      h("div", { class: "step-row" }, key("before"), key("after")),
+      h("div", { class: "step-row" }, this.button("unlock_all", () => this.page.changeConditions(() => this.page.repairAll()))),
+    );
+  }
+
+  update(): void {
+    const { arm, state, failed } = this.page;
+    this.lost = failed.length ? lostMotions(arm, state.q, failed) : [];
+  }
+
+  sentences(): [string, string] {
+    const { failed, state } = this.page;
+    if (failed.length === 0) return [this.text("lock_none"), this.text("healthy_detail")];
+    const conditions = new Set(failed.map((joint) => state.conditions[joint]));
+    const condition = conditions.size > 1 ? this.text("failed") : this.text(`is_${[...conditions][0]}`);
+    const share = formatPercent(this.lost[0].remaining);
+    return [this.text("lock", { joints: this.page.failedNames(), condition, share }), this.text("lock_detail")];
+  }
+
+  override overlay(): OverlayContent {
+    const { arm, state, failed } = this.page;
+    const center = arm.toolPosition(state.q);
+    if (failed.length === 0) return {};
+    return {
+      ellipsoids: [
+        { center, ...toolEllipsoid(arm, state.q, []), style: "before" },
+        { center, ...toolEllipsoid(arm, state.q, failed), style: "after" },
+      ],
+      lost: this.lost
+        .filter((motion) => motion.remaining < 0.99)
+        .map((motion) => ({ center, twist: [...motion.twist], label: formatPercent(motion.remaining) })),
+    };
+  }
+}
+
+export class PrepareStep extends Step {
+  private motion: SelfMotion | null = null;
+  private index = 0;
+  private timer = 0;
+  private input = this.slider("self_motion", 0, 1, 0, (index) => this.slide(index));
+  private curve = h("div");
+
+  enter(): void {
+    this.page.repairAll();
+    this.motion = null;
+    const best = this.button("go_to_best", () => this.goToBest());
+    this.page.controls.replaceChildren(this.curve, h("label", {}, h("span", {}, this.text("self_motion")), this.input),
+      h("div", { class: "step-row" }, best));
+  }
+
+  update(): void {
+    const { arm, state } = this.page;
+    if (this.motion?.configurations[this.index] !== state.q) {
+      this.motion = traceSelfMotion(arm, state.q);
+      this.index = this.motion.start;
+      this.input.max = String(this.motion.configurations.length - 1);
+    }
+    const { worst, best } = this.motion;
+    this.input.value = String(this.index);
+    this.input.disabled = worst.length < 2;
+    this.input.setAttribute("aria-valuetext", this.sentences()[0]);
+    const bound = this.page.data.bound;
+    const yMax = Math.max(...worst, bound) * 1.08;
+    this.curve.replaceChildren(
+      drawCurve({
+        x: worst.map((_, k) => k),
+        y: worst,
+        yMax,
+        yTop: formatPercent(yMax),
+        xLabel: this.text("self_motion"),
+        xEnds: ["", ""],
+        yLabel: this.text("curve_worst"),
+        marker: this.index,
+        limit: bound ? { y: bound, label: this.text("curve_bound", { bound: formatPercent(bound) }) } : undefined,
+        alternative: this.text("curve_worst_alternative", {
+          first: formatPercent(worst[0]),
+          last: formatPercent(worst[worst.length - 1]),
+          best: formatPercent(worst[best]),
+        }),
+      }),
+    );
+  }
+
+  override leave(): void {
+    cancelAnimationFrame(this.timer);
+  }
+
+  sentences(): [string, string] {
+    const { data, fractions, worst, arm } = this.page;
+    if (this.motion === null || this.motion.worst.length < 2) return [this.text("fixed"), this.text("fixed_detail")];
+    const best = formatPercent(this.motion.worst[this.motion.best]);
+    return [
+      this.text("prepare", { share: formatPercent(fractions[worst]) }),
+      this.text("prepare_detail", { best, count: arm.jointCount, bound: formatPercent(data.bound) }),
+    ];
+  }
+
+  private slide(index: number): void {
+    this.index = index;
+    this.page.setConfiguration((this.motion as SelfMotion).configurations[index]);
+  }
+
+  private goToBest(): void {
+    cancelAnimationFrame(this.timer);
+    const { best } = this.motion as SelfMotion;
+    const distance = best - this.index;
+    const steps = this.page.reducedMotion ? Math.abs(distance) : SLIDE_SPEED_SAMPLES_PER_PICTURE;
+    this.slide(this.index + Math.sign(distance) * Math.min(Math.abs(distance), steps));
+    if (this.index !== best) this.timer = requestAnimationFrame(() => this.goToBest());
+  }
+}
+
+export class UndetectedStep extends Step {
+  private motions: ControlledMotion[] = [];
+  private time = 0;
+  private timer = 0;
+  private input = this.slider("time", 1, 0.02, 0, (time) => this.showTime(time));
+  private playButton = this.button("play", () => this.play());
+  private readout = h("output");
+
+  enter(): void {
+    if (this.page.failed.length !== 1) {
+      this.page.repairAll();
+      this.page.setCondition(this.page.worst, "locked");
+    }
+    const key = (index: number, name: string): Element => {
+      const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
+      svg.append(createSvg("path", { class: `overlay-trail overlay-${TRAIL_STYLES[index]}`, d: "M1 5H33" }));
+      return h("span", { class: "law-key" }, svg as unknown as Node, name);
+    };
+    const laws = this.page.data.story?.laws ?? [];
+    const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
+    this.page.controls.replaceChildren(
+      h("div", { class: "step-row" }, ...names.map((name, k) => key(k, name))),
+      h("label", {}, this.playButton, this.input, this.readout),
+    );
+    this.rest();
+  }
+
+  update(): void {}
+
+  /** Simulate the motions from the present configuration, and play them. */
+  override rest(): void {
+    const { arm, state, failed, data } = this.page;
+    const { story } = data;
+    if (story === null || this.timer) return;
+    const self = traceSelfMotion(arm, state.q);
+    const prepared = self.configurations[self.best];
+    const [tool, first] = [arm.toolPosition(state.q), arm.toolPosition(story.start)];
+    const target = tool.map((value, k) => value + story.target[k] - first[k]) as typeof tool;
+    const starts = [state.q, state.q, prepared];
+    const laws = [story.laws[0], story.laws[1], story.laws[0]];
+    this.motions = starts.map((start, k) =>
+      simulateControl(arm, start, target, failed, { law: laws[k].slug, gain: story.gain, speed: story.speed }),
+    );
+    this.input.max = String(this.duration);
+    this.showTime(this.duration);
+    if (!this.page.reducedMotion) this.play();
+  }
+
+  override leave(): void {
+    this.stop();
+  }
+
+  override get configuration(): ArrayLike<number> {
+    return this.motions.length ? this.at(0) : this.page.state.q;
+  }
+
+  sentences(): [string, string] {
+    const story = this.page.data.story;
+    const [first, second, prepared] = this.motions.map((motion) => formatLength(motion.deviation));
+    if (!story) return ["", ""];
+    const medians = story.deviations.map(formatLength);
+    const names = { joint: capitalise(this.page.failedNames()) };
+    const one = this.text("undetected_one", { first, second, prepared });
+    const many = { count: story.motions, first: medians[0], second: medians[1], prepared: medians[2] };
+    return [this.text("undetected", names), `${one} ${this.text("undetected_detail", many)}`];
+  }
+
+  override overlay(): OverlayContent {
+    const trails = this.motions.map((motion, k) => ({
+      points: motion.trail.slice(0, this.sample(k) + 1),
+      style: TRAIL_STYLES[k],
+    }));
+    return { trails: trails.filter((trail) => trail.points.length > 1) };
+  }
+
+  private get duration(): number {
+    return Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1]));
+  }
+
+  private sample(motion: number): number {
+    return Math.min(Math.round(this.time / 0.02), this.motions[motion].time.length - 1);
+  }
+
+  private at(motion: number): ArrayLike<number> {
+    return this.motions[motion].configurations[this.sample(motion)];
+  }
+
+  private showTime(time: number): void {
+    this.time = time;
+    this.ghosts = [this.at(1), this.at(2)];
+    this.input.value = String(time);
+    this.readout.textContent = `${time.toFixed(1)} s`;
+    this.input.setAttribute("aria-valuetext", `${time.toFixed(1)} s`);
+    this.page.draw();
+  }
+
+  private stop(): void {
+    cancelAnimationFrame(this.timer);
+    this.timer = 0;
+    this.playButton.textContent = this.text("play");
+  }
+
+  private play(): void {
+    if (this.timer) return this.stop();
+    const from = this.time >= this.duration ? 0 : this.time;
+    let begun = 0;
+    const tick = (now: number): void => {
+      begun ||= now;
+      this.showTime(Math.min(this.duration, from + (PLAY_SPEED * (now - begun)) / 1000));
+      if (this.time >= this.duration) this.stop();
+      else this.timer = requestAnimationFrame(tick);
+    };
+    this.playButton.textContent = this.text("pause");
+    this.timer = requestAnimationFrame(tick);
+  }
+}
+
+export class PowerStep extends Step {
+  private fall: Fall | null = null;
+  private swing: Swing | null = null;
+  private input = this.slider("brake_delay", MAX_BRAKE_DELAY_MS, BRAKE_DELAY_STEP_MS, 0, (delay) => this.setDelay(delay));
+  private readout = h("output");
+  private menu = h("select");
+  private curve = h("div");
+
+  enter(): void {
+    this.page.changeConditions(() => this.page.repairAll());
+    const options = [this.text("all_joints"), ...this.page.data.jointLabels];
+    this.menu = h("select", {}, ...options.map((name) => h("option", {}, name)));
+    this.menu.addEventListener("change", () => {
+      const joint = this.menu.selectedIndex - 1;
+      this.page.changeConditions(() => {
+        this.page.repairAll();
+        if (joint >= 0) this.page.setCondition(joint, "free");
+      });
+    });
+    this.page.controls.replaceChildren(
+      this.curve,
+      h("label", {}, h("span", {}, this.text("brake_delay")), this.input, this.readout),
+      h("label", {}, h("span", {}, this.text("torque_lost")), this.menu),
+    );
+  }
+
+  update(): void {
+    const { arm, state, data } = this.page;
+    const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
+    this.menu.selectedIndex = free.length === 1 ? free[0] + 1 : 0;
+    const falling = state.conditions.map((condition): number =>
+      Number(free.length ? condition === "free" : condition === "healthy"));
+    this.fall = simulateFall(arm, state.q, falling, MAX_BRAKE_DELAY_MS / 1000, data.gravity);
+    this.swing = free.length === 1 ? swingJoint(arm, state.q, free[0]) : null;
+    this.showDelay();
+  }
+
+  sentences(): [string, string] {
+    const { state } = this.page;
+    const drop = formatLength(this.drop);
+    if (this.swing !== null) {
+      const joint = capitalise(this.page.failedNames());
+      return [this.text("swing", { joint, angle: formatAngle(this.swing.toFarthest) }), this.text("swing_detail", {
+        delay: state.brakeDelay, drop, rest: formatAngle(this.swing.toRest) })];
+    }
+    const { limitJoint, time } = this.fall as Fall;
+    const end = time[time.length - 1];
+    const detail = limitJoint === null || state.brakeDelay / 1000 < end ? this.text("power_detail")
+      : this.text("power_limit", { joint: capitalise(this.page.label(limitJoint)), delay: (1000 * end).toFixed(0) });
+    return [this.text("power", { delay: state.brakeDelay, drop }), detail];
+  }
+
+  private get sample(): number {
+    const { time } = this.fall as Fall;
+    const delay = this.page.state.brakeDelay / 1000;
+    return time.reduce((best, t, k) => (Math.abs(t - delay) < Math.abs(time[best] - delay) ? k : best), 0);
+  }
+
+  private get drop(): number {
+    return (this.fall as Fall).drop[this.sample];
+  }
+
+  private setDelay(delay: number): void {
+    this.page.state.brakeDelay = delay;
+    this.showDelay();
+    this.page.draw();
+  }
+
+  private showDelay(): void {
+    const { time, drop, configurations } = this.fall as Fall;
+    const delay = this.page.state.brakeDelay;
+    this.ghosts = [configurations[this.sample]];
+    this.input.value = String(delay);
+    this.readout.textContent = `${delay} ms`;
+    this.input.setAttribute("aria-valuetext", `${delay} ms: ${formatLength(this.drop)}`);
+    const height = Math.max(...drop.map(Math.abs), 0.01);
+    this.curve.replaceChildren(
+      drawCurve({
+        x: time,
+        y: drop,
+        yMax: height,
+        yTop: formatLength(height),
+        xLabel: this.text("brake_delay"),
+        xEnds: ["0", `${(1000 * time[time.length - 1]).toFixed(0)} ms`],
+        yLabel: this.text("curve_drop"),
+        marker: this.sample,
+        alternative: this.text("curve_drop_alternative", {
+          last: formatLength(drop[drop.length - 1]),
+          delay: (1000 * time[time.length - 1]).toFixed(0),
+        }),
+      }),
+    );
+  }
+}
+
+export const STEP_CLASSES: Record<StepName, new (page: ArmPage) => Step> = {
+  healthy: HealthyStep,
+  lock: LockStep,
+  prepare: PrepareStep,
+  undetected: UndetectedStep,
+  power: PowerStep,
+};
+
+/** Names of joints and the condition that they share. */
+export type { Condition };
+export { joinNames };

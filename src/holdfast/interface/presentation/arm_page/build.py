@@ -1,0 +1,176 @@
+"""HTML of the page of an arm: complete as a still page, and interactive with the script ``templates/arm_page.js``.
+
+``make page`` builds the script from ``page/src/arm_page``. It computes with kernels that are printed for the arm.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from hashlib import sha256
+from html import escape
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.core.errors import InputError
+from holdfast.core.files.html import Html
+from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.arm import view
+from holdfast.interface.presentation.arm_page.phrases import format_percent, label_joints, read_texts
+from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
+from holdfast.interface.presentation.arm_page.start import choose_start, simulate_story
+from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
+from holdfast.kinematics.index_bounds.manipulability_bounds import bound_of_index
+from holdfast.kinematics.indices.index import by_name
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, as_task
+from holdfast.model.cell.cell import Cell
+
+_STEPS = ("healthy", "lock", "prepare", "undetected", "power")
+_FRAME_HEIGHT_PX = 720  # of the page in a notebook
+DEFAULT_LAWS = ("pseudoinverse", "failure-tolerant")
+
+
+@dataclass(frozen=True)
+class _ArmSection:
+    """Part of the page for one arm.
+
+    Attributes:
+        html: Picture, panel, and data.
+        kernels: JavaScript expression of the arm's kernels.
+    """
+
+    html: str
+    kernels: str
+
+
+def build_page(
+    arm: Arm,
+    q: ArrayLike | None = None,
+    *,
+    locked: Sequence[str | int] = (),
+    laws: Sequence[str] = DEFAULT_LAWS,
+    target: ArrayLike | None = None,
+    task: str | Task | None = None,
+    cell: Cell | None = None,
+    beside: Sequence[Arm] = (),
+    plain: bool = False,
+) -> Html:
+    """Build the page of an arm.
+
+    Args:
+        arm: Arm to show.
+        q: (n,) first configuration, rad and m. Default: a configuration whose self-motion leads to a much better one.
+        locked: Joints, by name or index from 0, that are locked at first.
+        laws: Names of the two control laws of the undetected lock.
+        target: (3,) target position of the undetected lock, m. Default: that of a typical one of 400 random motions.
+        task: Task of the arm; its default task if None.
+        cell: Objects to draw around the arm; the page does not check for collisions with them.
+        beside: Further arms, among which a menu chooses.
+        plain: Omit the five steps.
+
+    Raises:
+        InputError: Not two laws are given, or arguments do not fit the arm.
+    """
+    if len(laws) != 2:
+        raise InputError(f"laws has {len(laws)} names; the page compares two control laws")
+    texts = read_texts()
+    sections = [_build_section(arm, q, locked, laws, target, task, cell, plain)]
+    sections += [_build_section(other, None, (), laws, None, None, None, plain, hidden=True) for other in beside]
+    names = [arm.name, *(other.name for other in beside)]
+    menu = ""
+    if beside:
+        options = "".join(f"<option>{escape(name)}</option>" for name in names)
+        menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
+    kernels = ",".join(f"{json.dumps(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
+    style = read_template("viewer.css") + read_template("arm_page.css")
+    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template('arm_page.js').strip()}"]
+    policy = (
+        f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
+        "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+    )
+    title = f"{arm.title}: which joint matters?"
+    return Html(
+        '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n'
+        f"<style>{style}</style>\n<script>{scripts[0]}</script>\n</head>\n<body>\n<main>\n"
+        f'<header class="arm-header"><h1>{escape(title)}</h1>{menu}</header>\n'
+        + "\n".join(section.html for section in sections)
+        + f"\n</main>\n<script>{scripts[1]}</script>\n</body>\n</html>\n",
+        _FRAME_HEIGHT_PX,
+    )
+
+
+def _digest(text: str) -> str:
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
+
+
+def _build_section(
+    arm: Arm,
+    q: ArrayLike | None,
+    locked: Sequence[str | int],
+    laws: Sequence[str],
+    target: ArrayLike | None,
+    task: str | Task | None,
+    cell: Cell | None,
+    plain: bool,
+    hidden: bool = False,
+) -> _ArmSection:
+    texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
+    start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
+    story = None if plain else simulate_story(arm, page_task, start, laws, target)
+    labels = label_joints(arm)
+    index = by_name("relative-manipulability", arm, task=page_task)
+    fractions = index.evaluate(start).by_failure
+    limit = bound_of_index(index) if arm.n > page_task.m else None
+    bound = 0.0 if limit is None else limit.bound
+    scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)))
+    data: dict[str, Any] = {
+        "name": arm.name,
+        "title": arm.title,
+        "argument": arm.source or arm.name,
+        "jointLabels": labels,
+        "taskRows": [round_to_seven_digits(row) for row in page_task.rows],
+        "taskName": page_task.name,
+        "bound": bound,
+        "gravity": round_to_seven_digits(arm.gravity),
+        "story": None if story is None else asdict(story),
+        "texts": texts,
+    }
+    bars = _write_bars(labels, fractions, bound, texts)
+    steps = "".join(
+        f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
+        for k, step in enumerate(_STEPS)
+    )
+    html = (
+        f'<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>\n'
+        f'<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>\n'
+        f'<div class="arm-panel">\n<p class="arm-headline">{escape(texts["healthy_before"])}</p>\n'
+        f'<p class="arm-detail">{escape(texts["healthy_detail"])}</p>\n<p class="visually-hidden" aria-live="polite"></p>\n{bars}\n'
+        + ("" if plain else f'<ol class="arm-steps" hidden>{steps}</ol>\n<div class="step-controls"></div>\n')
+        + '<details class="arm-commands"></details>\n</div>\n'
+        f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
+        f'<script type="application/json" class="arm-data">{to_script_json(data)}</script>\n</section>'
+    )
+    return _ArmSection(html, print_page_kernels(arm, page_task, laws))
+
+
+def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:
+    worst = int(np.argmin(fractions))
+    buttons = [
+        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
+        f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
+        f'<span class="bar-value">{format_percent(fraction)}'
+        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span></span></button>'
+        for k, (label, fraction) in enumerate(zip(labels, fractions, strict=True))
+    ]
+    note = texts["bound"].format(count=len(labels), bound=format_percent(bound))
+    return (
+        f'<div class="bars" role="group" aria-label="{escape(texts["bars"], quote=True)}" style="--bound:{bound:.4f}">'
+        f'{"".join(buttons)}</div>\n<p class="bars-note">{escape(texts["bars"])}' + (f"; {note}" if bound else "") + "</p>"
+    )
