@@ -1,1 +1,1 @@
-"""Browser page of an arm, which computes in the browser: one file without server or network."""
+"""Browser page of an arm."""
