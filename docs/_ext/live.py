@@ -3,7 +3,7 @@
 Every page has one Python session and one temporary folder, shared by its directives:
 
 ``run``: Python code and what it prints, the value of a last expression included; a figure is drawn, and ``:about:`` says
-    for people who cannot see it what it shows.
+    for people who cannot see it what it shows. A page is shown in a frame.
 ``shell``: command lines (``$ ...``) and what they print; ``:exit:`` is the exit code expected (0), ``:head:`` the number
     of lines shown of each output.
 ``drawing``: a figure that ``docs/_figures`` draws, with its caption.
@@ -44,6 +44,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 from holdfast import registry
+from holdfast.core.files.html import Html
 
 WIDTH = 92
 TERMINAL: dict[str, Any] = {"drop_whitespace": True, "replace_whitespace": False, "break_on_hyphens": False, "tabsize": 8}
@@ -135,6 +136,8 @@ class Run(_Live):
                     value = eval(compile(ast.Expression(last.value), self.env.docname, "eval"), self.names)
                     if hasattr(value, "savefig"):
                         drawn = self.drawn(value)
+                    elif isinstance(value, Html):
+                        drawn = nodes.raw("", value._repr_html_(), format="html")
                     elif value is not None:
                         print(repr(value))
         except Exception as error:

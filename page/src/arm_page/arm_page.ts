@@ -2,6 +2,7 @@
 
 import { sum } from "../viewer/algebra";
 import type { Pose, Vector } from "../viewer/scene";
+import { Overlay } from "../viewer/overlay";
 import { View } from "../viewer/view";
 import { readAddress, STEPS, writeAddress, type Condition, type PageState, type StepName } from "./address";
 import { ArmModel } from "./arm_model";
@@ -26,6 +27,7 @@ export class ArmPage {
   worst = 0;
   touched = false;
   private readonly view: View;
+  private readonly overlay: Overlay;
   private readonly bars: Bars;
   private readonly handle: ToolHandle;
   private readonly steps: Record<StepName, Step>;
@@ -38,10 +40,12 @@ export class ArmPage {
     private readonly section: HTMLElement,
     readonly data: ArmPageData,
     kernels: PrintedKernels,
-    view: (frames: (q: ArrayLike<number>) => Pose[]) => View,
+    box: HTMLElement,
+    canvas: HTMLCanvasElement,
   ) {
     this.arm = new ArmModel(kernels, data.scene.joints, data.taskRows);
-    this.view = view((q) => this.arm.frames(q).map((pose) => [...pose]));
+    this.view = new View(box, canvas, data.scene, { frames: (q) => this.arm.frames(q).map((pose) => [...pose]), plain: true });
+    this.overlay = new Overlay(this.view);
     this.controls = this.find(".step-controls") ?? document.createElement("div");
     const conditions = data.scene.locked.map((time): Condition => (time === null ? "healthy" : "locked"));
     const step = conditions.includes("locked") ? "lock" : "healthy";
@@ -58,7 +62,7 @@ export class ArmPage {
     });
     this.steps = Object.fromEntries(STEPS.map((name) => [name, new STEP_CLASSES[name](this)])) as Record<StepName, Step>;
     this.addStepButtons();
-    this.view.afterDraw = () => this.placeHandle();
+    this.view.onDraw = () => this.afterPicture();
     this.measure();
     this.openStep(this.state.step);
   }
@@ -131,17 +135,16 @@ export class ArmPage {
   }
 
   private drag(right: number, down: number): void {
-    const { axes, lengthPerPixel } = this.view.scaleAt(positionOf(this.dragStart));
-    this.moveTool(sum(sum([0, 0, 0], axes.right, right * lengthPerPixel), axes.top, -down * lengthPerPixel), this.dragStart);
+    const start = positionOf(this.dragStart);
+    this.moveTool(sum(this.view.displace(start, right, down), start, -1), this.dragStart);
   }
 
   private moveByKeys(right: number, up: number, gravity: number): void {
     this.touched = true;
-    const { axes } = this.view.scaleAt(this.arm.toolPosition(this.state.q));
+    const axes = this.view.camera.axes();
     const length = KEY_STEP * this.data.scene.size;
-    const down = this.data.scene.up.map((value) => -value) as Vector;
     const flat = sum(sum([0, 0, 0], axes.right, right * length), axes.top, up * length);
-    this.moveTool(sum(flat, down, gravity * length), this.target ?? [...this.arm.toolPose(this.state.q)]);
+    this.moveTool(sum(flat, this.data.scene.up, -gravity * length), this.target ?? [...this.arm.toolPose(this.state.q)]);
   }
 
   private moveTool(displacement: Vector, from: Pose): void {
@@ -181,14 +184,9 @@ export class ArmPage {
 
   /** Draw the picture and write the sentences. */
   draw(): void {
-    const { scene } = this.view;
-    scene.locked = this.state.conditions.map((condition) => (condition === "locked" ? 0 : null));
-    scene.free = this.state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
-    this.view.ghosts = this.step.ghosts.map((q) => [...Array.from(q)]);
+    this.view.setConditions(this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)));
+    this.view.setGhosts(this.step.ghosts.map((q) => [...Array.from(q)]));
     this.view.pose([...Array.from(this.step.configuration)]);
-    const tool = this.arm.toolPosition(this.state.q);
-    const pointerLine = this.target === null ? {} : { pointerLine: [tool, positionOf(this.target)] as [Vector, Vector] };
-    this.view.overlay = { ...this.step.overlay(), ...pointerLine };
     const [headline, detail] = this.target === null ? this.step.sentences() : this.unreachedSentences();
     (this.find(".arm-headline") as HTMLElement).textContent = headline;
     (this.find(".arm-detail") as HTMLElement).textContent = detail;
@@ -215,8 +213,12 @@ export class ArmPage {
     writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst);
   }
 
-  private placeHandle(): void {
-    this.handle.place(this.view.project(positionOf(this.target ?? [...this.arm.toolPose(this.state.q)])));
+  /** Place what lies over the picture. */
+  private afterPicture(): void {
+    const tool = this.arm.toolPosition(this.state.q);
+    const goal = this.target === null ? tool : positionOf(this.target);
+    this.handle.place(this.view.project(goal));
+    this.overlay.show({ ...this.step.overlay(), ...(this.target === null ? {} : { pointerLine: [tool, goal] }) });
   }
 
   private addHandle(): HTMLButtonElement {

@@ -1,7 +1,6 @@
 /** Starts the page of an arm: its first arm at once, and another one when the menu chooses it. */
 
 import type { Scene } from "../viewer/scene";
-import { View } from "../viewer/view";
 import { ArmPage } from "./arm_page";
 import type { ArmPageData, PrintedKernels } from "./data";
 
@@ -18,8 +17,7 @@ function start(section: HTMLElement): void {
   const scene = read(".view3d > script[type='application/json']") as Scene;
   scene.parts = read(".view3d-body script") as Scene["parts"];
   const data = { ...(read(".arm-data") as ArmPageData), scene };
-  new ArmPage(section, data, armKernels[data.name], (frames) => new View(box, canvas, scene, frames));
-  box.classList.add("view3d-live");
+  new ArmPage(section, data, armKernels[data.name], box, canvas);
 }
 
 const sections = [...document.querySelectorAll<HTMLElement>(".arm")];
