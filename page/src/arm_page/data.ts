@@ -46,14 +46,17 @@ export interface Story {
 export interface ArmPageData {
   name: string;
   title: string;
-  /** What a command calls the arm: a built-in name or a file. */
+  /** What a command calls the arm, with its options, and the Python expression that loads it. */
   argument: string;
+  pythonArm: string;
   scene: Scene;
   /** How a sentence names each joint, for example "joint 4". */
   jointLabels: string[];
   /** Rows of the task (m x 6) that select from a twist in the world, linear part first. */
   taskRows: number[][];
   taskName: string;
+  /** Task of the undetected lock: position, or planar for an arm that moves in a plane. */
+  positionTask: string;
   /** Upper bound of the worst relative manipulability of any arm with this n and m. */
   bound: number;
   /** Acceleration of gravity in the world, m/s^2. */

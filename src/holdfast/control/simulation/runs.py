@@ -85,6 +85,9 @@ class RunPath:
     locked: BoolArray
 
 
+_LINE_SAMPLES = 2000  # of a run, for its distance from a straight line
+
+
 @dataclass(frozen=True)
 class RunSettings:
     """Settings with which runs were simulated."""
@@ -265,6 +268,23 @@ class Runs(Result):
         if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
             raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
         return self._simulator.path(self, k, samples, until)
+
+    def line_deviation(self, k: int = 0) -> float:
+        """Return the largest distance of run ``k``'s tool point from the straight line between its start and its target, m.
+
+        Only the components of the position that the task prescribes count. The run is sampled at 2000 equal times.
+
+        Raises:
+            InputError: There is no such run, or it had bad input.
+        """
+        rows = self.law.task.rows[:, :3]
+        components = self.path(k, _LINE_SAMPLES).position @ rows.T
+        is_pose = self.target.shape[-2:] == (4, 4)
+        targets = self.target.reshape(-1, 4, 4)[:, :3, 3] @ rows.T if is_pose else np.atleast_2d(self.target)
+        target = targets[min(k, len(targets) - 1)]
+        line = target - components[0]
+        fraction = np.clip((components - components[0]) @ line / max(float(line @ line), 1e-300), 0.0, 1.0)
+        return float(np.linalg.norm(components - components[0] - fraction[:, None] * line, axis=1).max())
 
     def to_csv(self, file: str | File, k: int = 0) -> File:
         """Write run ``k`` to ``file`` as rows over time: joint positions, tool point (m), position and angle error.

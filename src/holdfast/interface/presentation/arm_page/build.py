@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from base64 import b64encode
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -22,15 +23,15 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm import view
 from holdfast.interface.presentation.arm_page.phrases import format_percent, label_joints, read_texts
 from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
-from holdfast.interface.presentation.arm_page.start import choose_start, simulate_story
+from holdfast.interface.presentation.arm_page.start import choose_start, find_prepared, measure_fractions, simulate_story
 from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
-from holdfast.kinematics.index_bounds.manipulability_bounds import bound_of_index
-from holdfast.kinematics.indices.index import by_name
+from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
+from holdfast.model import arms
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.task import Task, as_task
+from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.cell.cell import Cell
 
-_STEPS = ("healthy", "lock", "prepare", "undetected", "power")
+STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
 _FRAME_HEIGHT_PX = 720  # of the page in a notebook
 DEFAULT_LAWS = ("pseudoinverse", "failure-tolerant")
 
@@ -123,20 +124,21 @@ def _build_section(
 ) -> _ArmSection:
     texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
-    story = None if plain else simulate_story(arm, page_task, start, laws, target)
+    story = None if plain else simulate_story(arm, page_task, start, find_prepared(arm, page_task, start), laws, target)
     labels = label_joints(arm)
-    index = by_name("relative-manipulability", arm, task=page_task)
-    fractions = index.evaluate(start).by_failure
-    limit = bound_of_index(index) if arm.n > page_task.m else None
-    bound = 0.0 if limit is None else limit.bound
+    argument, options, _ = arms.command_words(arm)
+    fractions = measure_fractions(arm, page_task, start[None])[0]
+    bound = upper_bound(n=arm.n, m=page_task.m).bound if arm.n > page_task.m else 0.0
     scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)))
     data: dict[str, Any] = {
         "name": arm.name,
         "title": arm.title,
-        "argument": arm.source or arm.name,
+        "argument": " ".join([shlex.quote(argument), *options]),
+        "pythonArm": _write_python_arm(arm, argument),
         "jointLabels": labels,
         "taskRows": [round_to_seven_digits(row) for row in page_task.rows],
         "taskName": page_task.name,
+        "positionTask": default_path_task(arm, oriented=False),
         "bound": bound,
         "gravity": round_to_seven_digits(arm.gravity),
         "story": None if story is None else asdict(story),
@@ -145,7 +147,7 @@ def _build_section(
     bars = _write_bars(labels, fractions, bound, texts)
     steps = "".join(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
-        for k, step in enumerate(_STEPS)
+        for k, step in enumerate(STEP_NAMES)
     )
     html = (
         f'<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>\n'
@@ -158,6 +160,15 @@ def _build_section(
         f'<script type="application/json" class="arm-data">{to_script_json(data)}</script>\n</section>'
     )
     return _ArmSection(html, print_page_kernels(arm, page_task, laws))
+
+
+def _write_python_arm(arm: Arm, argument: str) -> str:
+    """Write the Python expression that loads the arm."""
+    options = {}
+    if arm.chain is not None and argument != arm.name:
+        options = {"base": arm.chain.base, "tip": arm.chain.tip, "hold": dict(arm.chain.held)}
+    words = [repr(argument), *(f"{name}={value!r}" for name, value in options.items() if value)]
+    return f"hf.arms.load({', '.join(words)})"
 
 
 def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:

@@ -1,0 +1,108 @@
+/** Commands and Python lines that reproduce what the page shows. */
+
+import { h } from "../dom";
+import type { PageState } from "./address";
+import type { ArmPageData } from "./data";
+
+export interface Reproduction {
+  shell: string;
+  python: string;
+}
+
+/** Return the command and the Python lines for the numbers of a state; `worst` is the joint with the worst bar, from 0. */
+export function reproduce(data: ArmPageData, state: PageState, worst: number): Reproduction {
+  const q = state.q.map((value) => String(Number(value.toFixed(6)))).join(", ");
+  const numbers = `"${q.replace(/ /g, "")}"`;
+  const failed = state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
+  const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
+  const python = (...lines: string[]): string =>
+    ["import holdfast as hf", "", `arm = ${data.pythonArm}`, `q = [${q}]`, ...lines].join("\n");
+  const measure = `hf.indices.relative_manipulability(arm, "${data.taskName}")`;
+  const index: Reproduction = {
+    shell: `holdfast index ${data.argument} --q=${numbers} --task ${data.taskName}`,
+    python: python(`print(${measure}.evaluate(q).by_failure)`),
+  };
+  if (data.scene.joints.length <= data.taskRows.length && (state.step === "healthy" || state.step === "lock")) {
+    return { shell: `holdfast describe ${data.argument}`, python: python("print(arm)") };
+  }
+  switch (state.step) {
+    case "healthy":
+      return index;
+    case "lock":
+      if (failed.length < 2) return index;
+      return { shell: index.shell, python: python(
+        "import numpy as np",
+        `from holdfast.model.arm.task import as_task`,
+        "",
+        `J = as_task(arm, "${data.taskName}").rows @ arm.jacobian(q)`,
+        "N = np.linalg.svd(J)[2][len(J):].T",
+        `print(np.linalg.svd(N[[${failed.join(", ")}]])[1])`,
+      ) };
+    case "prepare":
+      return {
+        shell: `holdfast optimise ${data.argument} --at=${numbers} --maximise relative-manipulability --task ${data.taskName}`,
+        python: python(`print(hf.optimise(arm, arm.forward_kinematics(q), ${measure}, initial=q).value)`),
+      };
+    case "undetected": {
+      if (data.story === null) return index;
+      const { laws, gain, speed, target } = data.story;
+      const locked = failed[0] ?? worst;
+      const task = data.positionTask;
+      const goal = target.slice(0, task === "planar" ? 2 : 3);
+      return {
+        shell: laws.map((law) => `holdfast simulate ${data.argument} --start=${numbers} --task ${task} --target=${goal.join(",")} ` +
+          `--lock ${locked + 1} --law ${law.slug} --gain ${gain} --speed-limit ${speed}`).join("\n"),
+        python: python(
+          `for label in ["${laws[0].slug}", "${laws[1].slug}"]:`,
+          `    law = hf.laws.by_name(label, arm, task="${task}", gain=${gain}, speed_limit=${speed})`,
+          `    print(hf.simulate(law, q, [${goal.join(", ")}], locked=[${locked}]).line_deviation())`,
+        ),
+      };
+    }
+    case "power": {
+      const seconds = state.brakeDelay / 1000;
+      const joints = free.length ? ` --free ${free.map((joint) => joint + 1).join(",")}` : "";
+      const option = free.length ? `, free=[${free.join(", ")}]` : "";
+      return {
+        shell: `holdfast power-loss ${data.argument} --q=${numbers}${joints} --coulomb 0 --stiction 0 --duration ${Math.max(seconds, 0.01)}`,
+        python: python(
+          `fall = hf.power_loss(arm, q${option}, friction=hf.Friction(coulomb=0), duration=0.5)`,
+          `print(fall.drop_at(${seconds}))`,
+        ),
+      };
+    }
+  }
+}
+
+/** Show the command and the Python lines, each with a button that copies it, and a button for the address. */
+export function writeCommands(details: HTMLElement, data: ArmPageData, state: PageState, worst: number): void {
+  const { texts } = data;
+  const { shell, python } = reproduce(data, state, worst);
+  const status = h("span", { role: "status" });
+  const copy = (text: () => string, label: string): HTMLButtonElement =>
+    h("button", { type: "button", onclick: () => void copyText(text()).then(() => (status.textContent = texts.copied)) }, label);
+  details.replaceChildren(
+    h("summary", {}, texts.commands),
+    h("pre", { tabindex: 0, class: "command-shell" }, shell),
+    copy(() => shell, texts.copy_command),
+    h("pre", { tabindex: 0, class: "command-python" }, python),
+    copy(() => python, texts.copy_python),
+    " ",
+    copy(() => location.href, texts.copy_address),
+    status,
+  );
+}
+
+/** Copy a text, also in a page that has no clipboard, for example in a sandboxed frame. */
+async function copyText(text: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = h("textarea", { class: "visually-hidden" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+}

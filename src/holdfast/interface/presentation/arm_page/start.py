@@ -1,0 +1,220 @@
+"""Start of the page's story: a configuration with much to gain, and random motions with an undetected lock."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.control.laws.law import Law, by_name
+from holdfast.core.errors import InputError
+from holdfast.core.typing import FloatArray
+from holdfast.kinematics.indices import index
+from holdfast.kinematics.solvers.inverse_kinematics import solver
+from holdfast.kinematics.solvers.self_motions import fibres
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.postures import generic_configuration
+from holdfast.model.arm.task import Task, as_task, default_path_task
+from holdfast.model.collision.clearance import Clearance
+
+_SEED = 20261130
+_POSES = 40
+_MAX_OFFSET_RAD = 0.7  # of the joints of a candidate from home, rad
+_MIN_LENGTH_RAD = 1.5  # of a self-motion that is long enough to slide along
+_START_FRACTION = 0.25  # of the best worst case, which the start has at most
+_SPACING_RAD = 0.05
+_STRUCTURAL_ZERO = 1e-6  # worst case below which no configuration of a self-motion helps
+_GAIN_PER_S = 2.0
+_SPEED_M_S = 0.25
+_STEP_S = 0.02  # of the page's simulation, in closed_loop.ts
+_DURATION_S = 12.0
+_REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
+_END_M = 0.001  # distance from the target at which a motion ends
+_MOTIONS = 400
+_MIN_WAY_FRACTION = 0.15  # of the arm's length, from the start of a motion to its target
+
+
+@dataclass(frozen=True)
+class LawChoice:
+    """A control law of the story: its label, and its name in a sentence."""
+
+    slug: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Story:
+    """Motions of a tool after an undetected lock of the worst joint, as in ``page/src/arm_page/data.ts``.
+
+    Attributes:
+        start: (n,) configuration at the start, rad and m.
+        target: (3,) target position of the example, m.
+        laws: The two control laws.
+        gain: Proportional gain, 1/s.
+        speed: Maximum speed of the tool, m/s.
+        motions: Number of random motions; 0 if the target was given.
+        deviations: Median of the largest distance from the straight line, m: law 1, law 2, and law 1 from the best
+            configuration of the self-motion.
+    """
+
+    start: list[float]
+    target: list[float]
+    laws: tuple[LawChoice, LawChoice]
+    gain: float
+    speed: float
+    motions: int
+    deviations: tuple[float, float, float]
+
+
+def measure_fractions(arm: Arm, task: Task, q: FloatArray) -> FloatArray:
+    """Return the relative manipulability (N, n) of each joint at configurations (N, n); 0 without redundancy."""
+    if arm.n <= task.m:
+        return np.zeros(q.shape)
+    measure = index.by_name("relative-manipulability", arm, task=task)
+    return np.asarray(measure.evaluate(q).by_failure)
+
+
+def choose_start(arm: Arm, task: Task) -> FloatArray:
+    """Choose a configuration (n,) that another configuration of the same tool pose improves much.
+
+    The candidates lie on self-motions of poses near home, with the orientation of home. Of the self-motions that are at least
+    1.5 rad long and collision-free, the one with the largest best worst case is chosen, and on it a configuration with at most
+    a quarter of that. The result is the same for the same arm. An arm without such a self-motion gets its generic configuration.
+    """
+    home = arm.states.get("home", generic_configuration(arm))
+    if arm.n != task.m + 1:
+        return generic_configuration(arm)
+    generator = np.random.default_rng(_SEED)
+    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSES, arm.n)), arm.lower, arm.upper)
+    poses = arm.forward_kinematics(near)
+    poses[:, :3, :3] = arm.forward_kinematics(home[None])[0, :3, :3]
+    clearance = Clearance.by_default(arm)
+    best, start = _STRUCTURAL_ZERO, generic_configuration(arm)
+    for motion in fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_SEED, clearance=clearance):
+        for curve in motion.components:
+            worst = measure_fractions(arm, task, curve.q).min(axis=1)
+            low = np.flatnonzero(worst <= _START_FRACTION * worst.max())
+            if curve.length >= _MIN_LENGTH_RAD and low.size and worst.max() > best:
+                best, start = float(worst.max()), curve.q[low[np.argmin(abs(low - worst.argmax()))]]
+    return np.asarray(np.round(start, 6))
+
+
+def simulate_story(
+    arm: Arm, task: Task, start: FloatArray, prepared: FloatArray, laws: Sequence[str], target: ArrayLike | None = None
+) -> Story | None:
+    """Simulate 400 random motions with an undetected lock of the worst joint, or only the one to a given ``target``.
+
+    The targets are positions of random configurations near the start. The example is the motion whose deviations are closest
+    to the three medians. Where the arm has too few joints for a position task, there is no story.
+
+    Args:
+        arm: Arm to simulate.
+        task: Task of the page, which decides the worst joint.
+        start: (n,) configuration at the start, rad and m.
+        prepared: (n,) better configuration with the same tool pose.
+        laws: Labels of the two control laws.
+        target: (3,) target position, m; None: choose one.
+
+    Raises:
+        InputError: The target is not a position.
+    """
+    path_task = as_task(arm, default_path_task(arm, oriented=False))
+    if arm.n <= path_task.m:
+        return None
+    if target is None:
+        targets = _draw_targets(arm, start)
+    else:
+        targets = np.asarray(target, dtype=np.float64)
+        if targets.shape not in ((3,), (4, 4)):
+            raise InputError(f"target has shape {targets.shape}; give a position (3,) or a pose (4, 4)")
+        targets = targets[None] if targets.shape == (3,) else targets[None, :3, 3]
+    worst = int(np.argmin(measure_fractions(arm, task, start[None])[0]))
+    control_laws = [by_name(label, arm, task=path_task) for label in laws]
+    deviations = np.stack(
+        [
+            simulate_deviations(law, q, targets, worst)
+            for law, q in ((control_laws[0], start), (control_laws[1], start), (control_laws[0], prepared))
+        ]
+    )
+    medians = np.median(deviations, axis=1)
+    example = int(np.argmin((abs(deviations / np.maximum(medians, 1e-9)[:, None] - 1)).sum(axis=0)))
+    choices = [LawChoice(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
+    return Story(
+        start=start.tolist(),
+        target=np.round(targets[example], 6).tolist(),
+        laws=(choices[0], choices[1]),
+        gain=_GAIN_PER_S,
+        speed=_SPEED_M_S,
+        motions=len(targets) if target is None else 0,
+        deviations=(float(medians[0]), float(medians[1]), float(medians[2])),
+    )
+
+
+def _draw_targets(arm: Arm, start: FloatArray) -> FloatArray:
+    """Draw positions (400, 3) of random configurations near the start that are far enough away, m."""
+    generator = np.random.default_rng(_SEED)
+    origin = arm.forward_kinematics(start[None])[0, :3, 3]
+    targets = np.zeros((0, 3))
+    offset = _MAX_OFFSET_RAD
+    while len(targets) < _MOTIONS:
+        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTIONS, arm.n)), arm.lower, arm.upper)
+        positions = arm.forward_kinematics(q)[:, :3, 3]
+        is_far = np.linalg.norm(positions - origin, axis=1) >= _MIN_WAY_FRACTION * arm.length_unit
+        targets, offset = np.vstack([targets, positions[is_far]]), 1.5 * offset
+    return targets[:_MOTIONS]
+
+
+def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> FloatArray:
+    """Return the largest distance (N,) of the tool from the straight line to each target (N, 3), m, with a joint locked.
+
+    The controller commands ``q' = G(q) v`` without information about the lock, with the velocity v towards the target, as
+    ``closed_loop.ts`` does: classic Runge-Kutta with 20 ms, until 1 mm from the target, at most 12 s.
+    """
+    rows, moving = law.task.rows[:, :3], np.arange(law.arm.n) != locked
+
+    def rates(q: FloatArray) -> FloatArray:
+        errors = targets[active] - law.arm.forward_kinematics(q)[:, :3, 3]
+        distances = np.linalg.norm(errors, axis=1, keepdims=True)
+        gains = np.minimum(_GAIN_PER_S, _SPEED_M_S / np.maximum(distances, 1e-12))
+        return np.asarray(law.velocity(q, gains * errors @ rows.T) * moving)
+
+    active = np.arange(len(targets))
+    q = np.tile(start, (len(targets), 1))
+    lines = targets - law.arm.forward_kinematics(start[None])[0, :3, 3]
+    largest = np.zeros(len(targets))
+    for _ in range(round(_DURATION_S / _STEP_S) + 1):
+        errors = targets[active] - law.arm.forward_kinematics(q)[:, :3, 3]
+        fractions = np.clip((errors * lines[active]).sum(axis=1) / (lines[active] ** 2).sum(axis=1), 0, 1)
+        largest[active] = np.maximum(largest[active], np.linalg.norm(errors - fractions[:, None] * lines[active], axis=1))
+        is_moving = (np.linalg.norm(errors, axis=1) > _END_M) & np.isfinite(q).all(axis=1)
+        active, q = active[is_moving], q[is_moving]
+        if not len(active):
+            break
+        slope_1 = rates(q)
+        slope_2 = rates(q + _STEP_S / 2 * slope_1)
+        slope_3 = rates(q + _STEP_S / 2 * slope_2)
+        slope_4 = rates(q + _STEP_S * slope_3)
+        q = q + _STEP_S / 6 * (slope_1 + 2 * slope_2 + 2 * slope_3 + slope_4)
+    return largest
+
+
+def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:
+    """Return the configuration (n,) with the tool pose of ``start`` that has the largest worst case of those nearby."""
+    pose = arm.forward_kinematics(start[None])
+    if arm.n <= task.m:
+        return start
+    if arm.n == task.m + 1:
+        candidates = [curve.q for curve in fibres(arm, pose, task, spacing=_SPACING_RAD, seed=_SEED)[0].components]
+        nearest = [float(np.linalg.norm(q - start, axis=1).min()) for q in candidates]
+        if not candidates:
+            return start
+        q = candidates[int(np.argmin(nearest))]
+    else:
+        generator = np.random.default_rng(_SEED)
+        starts = np.clip(start + generator.normal(0, 0.3, (64, arm.n)), arm.lower, arm.upper)
+        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_SEED)
+        found = solver(arm, task).solve(poses, seeds, 1, _REACH_TOLERANCE, first=starts)
+        q = np.vstack([start, found.q[found.success]])
+    return np.asarray(q[int(np.argmax(measure_fractions(arm, task, q).min(axis=1)))])
