@@ -22,6 +22,7 @@ _FUNCTION_TEXTS: dict[str, str | int] = {
     "highWord": "const highWord=a=>(bits[0]=a,words[1]);",
     "lowWord": "const lowWord=a=>(bits[0]=a,words[0]);",
     "joinWords": "const joinWords=(high,low)=>(words[1]=high,words[0]=low,bits[0]);",
+    "copySign": "const copySign=(a,b)=>b<0||1/b<0?-Math.abs(a):Math.abs(a);",
     "exponential": ca.OP_EXP,
     "logarithm": ca.OP_LOG,
     "power": ca.OP_POW,
@@ -41,7 +42,7 @@ def define_functions(text: str) -> str:
     """Define sine, cosine, exponential, and other functions that a JavaScript text calls, each function in one line."""
     definitions = ""
     for name, source in reversed(_FUNCTION_TEXTS.items()):
-        if re.search(rf"\b{name}\b", text + definitions):
+        if re.search(rf"\b{name}[(\[]", text + definitions):
             definitions = f"{_write_function(name, source) if isinstance(source, int) else source}\n{definitions}"
     return definitions
 
