@@ -66,7 +66,8 @@ def write_c_function(program: Program, name: str, inputs: Mapping[str, int], out
     Raises:
         KernelError: The program has an operation without a C form; the message names it.
     """
-    graph = ValueGraph(program, "C", _C_FORMS.keys(), guarded=False)
+    graph = ValueGraph()
+    graph.add_program(program, "C", _C_FORMS.keys(), guarded=False)
     lines, doubles, conditions = _write_statements(graph, _element_names(inputs), _element_names(outputs))
     declared = [f"    {kind} {', '.join(names)};\n" for kind, names in (("double", doubles), ("int", conditions)) if names]
     unused = [f"    (void){x};\n" for x in inputs if not any(f"{x}[" in line for line in lines)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -27,32 +28,36 @@ class GraphNode:
 
 
 class ValueGraph:
-    """Values of a program, each computed once, in a valid order.
-
-    Args:
-        program: Program.
-        language: Name of the target language.
-        operations: Operations of the target language.
-        guarded: If True, NaN or infinity in any input makes every output NaN, as in a kernel.
+    """Values, each computed once, in a valid order.
 
     Attributes:
         nodes: Values, each after its arguments.
         needed: Numbers of the values that an output needs, in order.
-
-    Raises:
-        KernelError: The language does not have an operation of the program; the message names it.
     """
 
-    def __init__(self, program: Program, language: str, operations: Collection[int], *, guarded: bool) -> None:
+    def __init__(self) -> None:
         self.nodes: list[GraphNode] = []
-        self._known: dict[GraphNode, int] = {}
+        self.needed: list[int] = []
+        self._known: dict[tuple[GraphNode, float], int] = {}
+
+    def add_program(self, program: Program, language: str, operations: Collection[int], *, guarded: bool) -> None:
+        """Add the values of a program and select those that its outputs need.
+
+        Args:
+            program: Program.
+            language: Name of the target language.
+            operations: Operations of the target language.
+            guarded: If True, NaN or infinity in any input makes every output NaN, as in a kernel.
+
+        Raises:
+            KernelError: The language does not have an operation of the program; the message names it.
+        """
         work: dict[int, int] = {}
-        inputs = [self._add_node(GraphNode(OP_INPUT, value=i)) for i in range(program.n_in)]
+        inputs = [self.add_node(OP_INPUT, value=i) for i in range(program.n_in)]
         if guarded:  # the guard must reach every output, even if its expression ignores that input
-            total = inputs[0]
-            for term in inputs[1:]:
-                total = self._add_node(GraphNode(ca.OP_ADD, (total, term)))
-            guard = self._add_node(GraphNode(ca.OP_SUB, (total, total)))
+            guard = zero = self.add_node(OP_CONST, value=0.0)
+            for term in inputs:
+                guard = self.add_node(ca.OP_ADD, guard, self.add_node(ca.OP_MUL, term, zero))
         divisors = program.shared_divisors()
         outputs: list[int] = []
         for k, row in enumerate(program.instructions):
@@ -60,24 +65,28 @@ class ValueGraph:
             if row.op == ca.OP_INPUT:
                 work[row.output] = inputs[row.inputs[0]]
             elif row.op == ca.OP_CONST:
-                work[row.output] = self._add_node(GraphNode(OP_CONST, value=row.constant))
+                work[row.output] = self.add_node(OP_CONST, value=row.constant)
             elif row.op == ca.OP_ASSIGN:
                 work[row.output] = args[0]
             elif row.op == ca.OP_OUTPUT:
-                guarded_value = self._add_node(GraphNode(ca.OP_ADD, (args[0], guard))) if guarded else args[0]
-                outputs.append(self._add_node(GraphNode(OP_OUTPUT, (guarded_value,), row.output)))
+                guarded_value = self.add_node(ca.OP_ADD, args[0], guard) if guarded else args[0]
+                outputs.append(self.add_node(OP_OUTPUT, guarded_value, value=row.output))
             elif row.op not in operations:
                 raise KernelError(
                     f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which {language} does "
                     "not have; write the expression with operations listed in docs/project/own-index"
                 )
             elif k in divisors:
-                shared = self._add_node(GraphNode(ca.OP_INV, args[-1:]))
-                work[row.output] = shared if row.op == ca.OP_INV else self._add_node(GraphNode(ca.OP_MUL, (args[0], shared)))
+                shared = self.add_node(ca.OP_INV, args[-1])
+                work[row.output] = shared if row.op == ca.OP_INV else self.add_node(ca.OP_MUL, args[0], shared)
             elif row.op == ca.OP_ADD:
-                work[row.output] = self._add_node(self._merge_choice(*args) or GraphNode(ca.OP_ADD, args))
+                work[row.output] = self.add_node(*(self._merge_choice(*args) or (ca.OP_ADD, *args)))
             else:
-                work[row.output] = self._add_node(GraphNode(row.op, args))
+                work[row.output] = self.add_node(row.op, *args)
+        self.select_needed(outputs)
+
+    def select_needed(self, outputs: list[int]) -> None:
+        """Set :attr:`needed` to the values from which the outputs are computed, including them."""
         reached, stack = set(outputs), list(outputs)
         while stack:
             for a in self.nodes[stack.pop()].args:
@@ -86,20 +95,23 @@ class ValueGraph:
                     stack.append(a)
         self.needed = sorted(reached)
 
-    def _add_node(self, node: GraphNode) -> int:
-        if node not in self._known:
-            self._known[node] = len(self.nodes)
+    def add_node(self, op: int, *args: int, value: float = 0.0) -> int:
+        """Return the number of a value; the value is added if it is new."""
+        node = GraphNode(op, args, value)
+        key = node, math.copysign(1.0, value)  # 0 and -0 are different constants
+        if key not in self._known:
+            self._known[key] = len(self.nodes)
             self.nodes.append(node)
-        return self._known[node]
+        return self._known[key]
 
-    def _merge_choice(self, x: int, y: int) -> GraphNode | None:
+    def _merge_choice(self, x: int, y: int) -> tuple[int, int, int, int] | None:
         """Merge to one choice CasADi's form of ``c ? a : b``, which is ``(c ? a : 0) + (!c ? b : 0)`` with four operations."""
         first, second = self.nodes[x], self.nodes[y]
         if first.op != ca.OP_IF_ELSE_ZERO or second.op != ca.OP_IF_ELSE_ZERO:
             return None
         (c, a), (d, b) = first.args, second.args
         if self.nodes[d] == GraphNode(ca.OP_NOT, (c,)):
-            return GraphNode(OP_SELECT, (c, a, b))
+            return OP_SELECT, c, a, b
         if self.nodes[c] == GraphNode(ca.OP_NOT, (d,)):
-            return GraphNode(OP_SELECT, (d, b, a))
+            return OP_SELECT, d, b, a
         return None

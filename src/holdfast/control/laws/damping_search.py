@@ -131,6 +131,7 @@ def generate_c_search(m: int, n: int, allowed: float) -> str:
     }
     # Pairs of rows with equal index sums modulo m have no row in common, so a processor can overlap their rotations.
     row_pairs = sorted(combinations(range(m), 2), key=lambda pair: sum(pair) % m) or [(0, 0)]
+    replacements["NUMBER_OF_PAIRS"] = str(len(row_pairs))
     replacements["PAIRS"] = ", ".join(f"{{{first}, {second}}}" for first, second in row_pairs)
     sum_terms = {"RATE": "f->rows[#][i] * r[#]", "HEALTHY": "squares[#]", "TURNING": "squares[#] * r[#] * f->squares[#]"}
     sum_terms["STEEP"] = "f->rows[#][worst] * r[#] * r[#]"

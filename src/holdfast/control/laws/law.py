@@ -30,8 +30,9 @@ from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kernels.control_step import Steppable
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.frameworks.rows import Differentiable, RowFunction
+from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.program import SX
+from holdfast.kernels.program import SX, Program
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task
@@ -139,6 +140,20 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
         """Return the C99 text of ``static void inverse(const double *j, const double *v, double *rates)``, j row by row."""
         j, v = ca.SX.sym("j", self.task.m, self.arm.n), ca.SX.sym("v", self.task.m)
         return generate_c_functions({"inverse": CFunction({"j": j, "v": v}, {"rates": [self.inverse(j, v)]})})
+
+    def write_rates_in_javascript(self, name: str, q: SX, v: SX, inputs: Sequence[SX], *, with_functions: bool = True) -> str:
+        """Return :meth:`rates` for ``q``, ``v`` as JavaScript: ``const NAME = (x, y) => ...``.
+
+        The text is as :func:`holdfast.kernels.javascript_backend.write_javascript` writes it.
+
+        Args:
+            name: Name of the constant.
+            q: (n,) configuration, an expression of the inputs.
+            v: (m,) task velocity, an expression of the inputs.
+            inputs: Symbols in x, in order; y are the joint rates.
+            with_functions: If False, the text does not define the functions that it calls.
+        """
+        return write_javascript(Program(self.name, inputs, [self.rates(q, v)]), name, with_functions=with_functions)
 
     # ---- numbers -----------------------------------------------------------------------------------------------
 

@@ -11,12 +11,15 @@ from numpy.typing import ArrayLike
 
 from holdfast.control.laws import damping_search
 from holdfast.control.laws.c_functions import CFunction, generate_c_functions
+from holdfast.control.laws.c_translation import translate_c_to_javascript
 from holdfast.control.laws.law import Law
 from holdfast.core.errors import InputError
 from holdfast.core.registry import Parameter, constructor
 from holdfast.core.typing import BoolArray
 from holdfast.core.validation import check_constructor
-from holdfast.kernels.program import SX
+from holdfast.kernels.javascript.functions import define_functions
+from holdfast.kernels.javascript_backend import write_javascript
+from holdfast.kernels.program import SX, Program
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, TaskSpec
@@ -113,6 +116,20 @@ static void inverse(const double *j, const double *v, double *rates) {{
     double told[3];
     damped_inverse(j, v, rates, told, told + 1, told + 2);
 }}
+"""
+
+    def write_rates_in_javascript(self, name: str, q: SX, v: SX, inputs: Sequence[SX], *, with_functions: bool = True) -> str:
+        """Return the rates as JavaScript, with the search in loops; see :meth:`Law.write_rates_in_javascript`."""
+        program = Program("Jacobian and velocity", inputs, [self.jacobian(q), self.scale_velocity(v)])
+        body = write_javascript(program, "see", with_functions=False) + translate_c_to_javascript(
+            damping_search.generate_c_search(self.task.m, self.arm.n, self.pre_failure_error)
+        )
+        return f"""const {name}=(()=>{{
+"use strict";
+{define_functions(body) if with_functions else ""}{body}\
+const j=new Float64Array({program.n_out}),v=j.subarray({program.n_out - self.task.m}),other=new Float64Array(1);
+return (x,y)=>{{see(x,j);damped_inverse(j,v,y,other,other,other);}};
+}})();
 """
 
     def _build_damped_outputs(self, j: SX, v: SX) -> dict[str, SX]:

@@ -2,7 +2,7 @@
  * The damping that makes the worst single locked joint least bad, as holdfast/control/laws/damping_search.py has it: the same search,
  * in loops, which end where there is nothing left to do. J: ROWS rows of JOINTS columns; u: direction of norm 1.
  */
-enum { ROWS = CONST_ROWS, JOINTS = CONST_JOINTS, WIDE = CONST_WIDE, PAIRS = ROWS > 1 ? ROWS * (ROWS - 1) / 2 : 1 };
+enum { ROWS = CONST_ROWS, JOINTS = CONST_JOINTS, WIDE = CONST_WIDE, PAIRS = CONST_NUMBER_OF_PAIRS };
 enum { CELLS = CONST_CELLS };
 
 static const unsigned char pairs[PAIRS][2] = {CONST_PAIRS};
@@ -128,7 +128,7 @@ static point refined(const search *f, point a, point b, point best) {
     for (round = 1; round <= CONST_REFINED; ++round) {
         double edge = round < CONST_REFINED ? CONST_EDGE : 0, width = b.s - a.s, bend = b.slope - a.slope;
         double there = meet(a, b), flat = -a.slope * width / bend, step;
-        step = fabs(there - width / 2) < CONST_SMOOTH * width || bend * width < CONST_ROUGH * a.value ? flat : there;
+        step = fabs(there - width / 2.0) < CONST_SMOOTH * width || bend * width < CONST_ROUGH * a.value ? flat : there;
         step = larger(step, edge * width);
         x = at(f, a.s + (step < (1 - edge) * width ? step : (1 - edge) * width));
         if (x.value < best.value) best = x;
@@ -142,12 +142,12 @@ static point refined(const search *f, point a, point b, point best) {
 
 static double least(const search *f, double end) {
     point points[CELLS + 1], best;
-    double estimates[CELLS], smallest = f->squares[0], first, ratio, power = 1;
+    double estimates[CELLS], smallest = f->squares[0], first, ratio, power = 1, cells = CELLS;
     int k, number;
     for (k = 1; k < ROWS; ++k) smallest = f->squares[k] < smallest ? f->squares[k] : smallest;
     first = larger(CONST_FIRST * smallest, 1e-12 * end);
-    first = first < end / 3 ? first : end / 3;
-    ratio = exp(log(1 + end / first) / CELLS);
+    first = first < end / 3.0 ? first : end / 3.0;
+    ratio = exp(log(1 + end / first) / cells);
     for (k = 0; k <= CELLS; ++k) {
         points[k] = at(f, k < CELLS ? first * (power - 1) : end);
         power *= ratio;
