@@ -13,9 +13,9 @@ export interface PrintedKernels {
   jacobian: PrintedKernel;
   /** q (n) to an orthonormal basis N of the null space of the task Jacobian (n x r). */
   nullSpace: PrintedKernel;
-  /** q (n), target pose (12), free joints (n, each 0 or 1) to the next q (n) and the error (1). */
+  /** q (n), target pose (12), free joints (n, each 0 or 1) to the next q (n) and the error at q (1), rad and arm lengths. */
   inverseKinematicsStep: PrintedKernel;
-  /** For each control law: q (n), task velocity (m) to joint velocities (n). */
+  /** For each control law: q (n), velocity of the tool point in the world (3) to joint velocities (n). */
   laws: Record<string, PrintedKernel>;
   /** q (n), joint velocities (n), free joints (n, each 0 or 1) to joint accelerations (n); null without masses. */
   accelerations: PrintedKernel | null;

@@ -1,0 +1,69 @@
+/** Motion of an arm to a target under a control law that does not know which joints are locked. */
+
+import type { Vector } from "../viewer/scene";
+import type { ArmModel, Values } from "./arm_model";
+import { addScaled, dotProduct, stepRungeKutta, vectorNorm } from "./small_matrices";
+
+const STEP_S = 0.02;
+const DURATION_S = 12;
+/** Distance from the target at which the tool has arrived, and at which the motion ends, m. */
+const ARRIVAL_M = 0.01;
+const END_M = 0.001;
+
+export interface ControlSettings {
+  /** Key in `PrintedKernels.laws`. */
+  law: string;
+  /** Proportional gain, 1/s. */
+  gain: number;
+  /** Maximum commanded speed of the tool, m/s. */
+  speed: number;
+}
+
+export interface ControlledMotion {
+  /** Times of the configurations and of the positions of the tool, s and m. */
+  time: number[];
+  configurations: Float64Array[];
+  trail: Vector[];
+  /** Largest distance of the tool from the straight line to the target, m. */
+  deviation: number;
+  /** Time at which the tool is within 1 cm of the target, s; null if it does not arrive. */
+  arrivalTime: number | null;
+}
+
+/** Simulate 12 s of a motion from q to a target, m, or less if the tool arrives or the law has no answer. */
+export function simulateControl(
+  arm: ArmModel,
+  q: Values,
+  target: Vector,
+  locked: readonly number[],
+  settings: ControlSettings,
+): ControlledMotion {
+  const free = arm.freeJoints(locked);
+  const rates = (state: Float64Array): Float64Array => {
+    const error = addScaled(target, arm.toolPosition(state), -1);
+    const gain = Math.min(settings.gain, settings.speed / vectorNorm(error));
+    return arm.commandRates(settings.law, state, error.map((value) => gain * value)).map((rate, k) => free[k] * rate);
+  };
+  const motion: ControlledMotion = { time: [], configurations: [], trail: [], deviation: 0, arrivalTime: null };
+  let state: Float64Array = Float64Array.from(q);
+  const line = addScaled(target, arm.toolPosition(state), -1);
+  for (let step = 0; step <= DURATION_S / STEP_S && state.every(Number.isFinite); step++) {
+    const position = arm.toolPosition(state);
+    const error = addScaled(target, position, -1);
+    motion.time.push(step * STEP_S);
+    motion.configurations.push(state);
+    motion.trail.push(position);
+    motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
+    const distance = vectorNorm(error);
+    if (distance <= ARRIVAL_M) motion.arrivalTime ??= step * STEP_S;
+    if (distance <= END_M) break;
+    state = stepRungeKutta(rates, state, STEP_S);
+  }
+  return motion;
+}
+
+/** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */
+function distanceFromLine(error: Float64Array, line: Float64Array): number {
+  const fraction = Math.min(1, Math.max(0, dotProduct(error, line) / dotProduct(line, line)));
+  return vectorNorm(addScaled(error, line, -fraction));
+}

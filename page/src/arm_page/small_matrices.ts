@@ -1,0 +1,108 @@
+/** Numerical methods for small matrices, which are lists of rows, and for motions. */
+
+export type Rows = Float64Array[];
+
+/** A row that is this much shorter than before its projection depends on the rows before it. */
+const DEPENDENT_RATIO = 1e-13;
+const MAX_SWEEPS = 30;
+
+/** Return the rows of a matrix that is stored row by row, as views. */
+export function splitRows(values: Float64Array, rowCount: number): Rows {
+  const columns = values.length / rowCount;
+  return Array.from({ length: rowCount }, (_, i) => values.subarray(i * columns, (i + 1) * columns));
+}
+
+export function dotProduct(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  let total = 0;
+  for (let i = 0; i < a.length; i++) total += a[i] * b[i];
+  return total;
+}
+
+export const vectorNorm = (a: ArrayLike<number>): number => Math.sqrt(dotProduct(a, a));
+
+/** Return a + scale b. */
+export const addScaled = (a: ArrayLike<number>, b: ArrayLike<number>, scale: number): Float64Array =>
+  Float64Array.from(a, (value, i) => value + scale * b[i]);
+
+/** Orthonormal rows, and the lower triangular factor with `rows = lower basis`; a dependent row has a basis row of zeros. */
+export interface RowFactors {
+  basis: Rows;
+  lower: Rows;
+}
+
+/** Factor rows by the Gram-Schmidt method, twice for each row, which avoids the squared condition number of `J J'`. */
+export function factorRows(rows: Rows): RowFactors {
+  const basis: Rows = [];
+  const lower = rows.map(() => new Float64Array(rows.length));
+  rows.forEach((row, i) => {
+    let rest: Float64Array = row;
+    for (let pass = 0; pass < 2; pass++) {
+      for (let k = 0; k < i; k++) {
+        const part = dotProduct(basis[k], rest);
+        lower[i][k] += part;
+        rest = addScaled(rest, basis[k], -part);
+      }
+    }
+    const norm = vectorNorm(rest);
+    lower[i][i] = norm > DEPENDENT_RATIO * vectorNorm(row) ? norm : 0;
+    basis.push(rest.map((value) => (lower[i][i] > 0 ? value / norm : 0)));
+  });
+  return { basis, lower };
+}
+
+/** Solve `lower' x = b`; the unknowns of dependent rows are 0. */
+export function solveTransposed(lower: Rows, b: Float64Array): Float64Array {
+  const x = new Float64Array(b.length);
+  for (let i = b.length - 1; i >= 0; i--) {
+    let rest = b[i];
+    for (let k = i + 1; k < b.length; k++) rest -= lower[k][i] * x[k];
+    x[i] = lower[i][i] > 0 ? rest / lower[i][i] : 0;
+  }
+  return x;
+}
+
+/** A singular value of a matrix, and its left singular vector. */
+export interface SingularValue {
+  value: number;
+  direction: Float64Array;
+}
+
+/** Return a singular value for each row, largest first, by one-sided Jacobi rotations. */
+export function findSingularValues(rows: Rows): SingularValue[] {
+  const rotated = rows.map((row) => Float64Array.from(row));
+  const directions = rows.map((_, i) => Float64Array.from(rows, (_row, k) => (i === k ? 1 : 0)));
+  for (let sweep = 0, largestCosine = 1; sweep < MAX_SWEEPS && largestCosine > 1e-16; sweep++) {
+    largestCosine = 0;
+    for (let i = 0; i < rows.length; i++) {
+      for (let k = i + 1; k < rows.length; k++) {
+        const product = dotProduct(rotated[i], rotated[k]);
+        if (product === 0) continue;
+        const [square, otherSquare] = [dotProduct(rotated[i], rotated[i]), dotProduct(rotated[k], rotated[k])];
+        largestCosine = Math.max(largestCosine, Math.abs(product) / Math.sqrt(square * otherSquare));
+        const slope = (otherSquare - square) / (2 * product);
+        const tangent = (slope < 0 ? -1 : 1) / (Math.abs(slope) + Math.sqrt(1 + slope * slope));
+        const cosine = 1 / Math.sqrt(1 + tangent * tangent);
+        for (const list of [rotated, directions]) {
+          const [first, second] = [list[i], list[k]];
+          list[i] = first.map((value, j) => cosine * (value - tangent * second[j]));
+          list[k] = second.map((value, j) => cosine * (value + tangent * first[j]));
+        }
+      }
+    }
+  }
+  const values = rotated.map((row, i) => ({ value: vectorNorm(row), direction: directions[i] }));
+  return values.sort((first, second) => second.value - first.value);
+}
+
+/** Return the state after a step of the classic Runge-Kutta method of order 4. */
+export function stepRungeKutta(
+  derivative: (state: Float64Array) => Float64Array,
+  state: Float64Array,
+  step: number,
+): Float64Array {
+  const first = derivative(state);
+  const second = derivative(addScaled(state, first, step / 2));
+  const third = derivative(addScaled(state, second, step / 2));
+  const fourth = derivative(addScaled(state, third, step));
+  return state.map((value, i) => value + (step / 6) * (first[i] + 2 * second[i] + 2 * third[i] + fourth[i]));
+}

@@ -1,0 +1,1 @@
+"""Browser page of an arm."""

@@ -1,0 +1,89 @@
+"""Kernels of the browser page of an arm, printed in JavaScript from the equations of the library."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import casadi as ca
+
+from holdfast.control.falls.passive_arm import PassiveArm
+from holdfast.control.laws.law import by_name
+from holdfast.kernels.disk_cache import cached_json
+from holdfast.kernels.javascript_backend import write_javascript
+from holdfast.kernels.linalg import factor_householder
+from holdfast.kernels.program import SX, Program
+from holdfast.kinematics.solvers.inverse_kinematics import damped_step_and_residual, scaled_error_and_jacobian
+from holdfast.model.arm import kinematics
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.task import Task, default_path_task
+
+
+def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinverse", "failure-tolerant")) -> str:
+    """Print the kernels of a page as a JavaScript expression.
+
+    Its value is a ``PrintedKernels`` of ``page/src/arm_page/data.ts``, which states the inputs and outputs of each kernel.
+
+    Args:
+        arm: The arm, which has at least as many joints as the task has rows.
+        task: Task of the page, for the null space and the inverse kinematics.
+        laws: Labels of control laws, which move the tool point of the arm; none for an arm with too few joints for that.
+    """
+    return _print_programs(arm, task, tuple(laws))
+
+
+@cached_json
+def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
+    q = kinematics.joint_symbols(arm)
+    programs = {
+        "frames": Program("frames", [q], [kinematics.body_poses(arm, q)]),
+        "jacobian": Program("Jacobian", [q], [ca.densify(kinematics.world_jacobian(arm, q))]),
+        "nullSpace": Program("null space", [q], [_null_space_basis(arm, task, q)]),
+        "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
+        "accelerations": _accelerations_program(arm, q),
+    }
+    lines, members = ["(()=>{"], []
+    for name, program in programs.items():
+        lines.append("" if program is None else write_javascript(program, name))
+        members.append(f"{name}:null" if program is None else name)
+    members_of_laws = []
+    for number, label in enumerate(laws):
+        lines.append(write_javascript(_law_program(arm, label, q), f"law{number}"))
+        members_of_laws.append(f"{json.dumps(label)}:law{number}")
+    return "".join([*lines, f"return {{{','.join(members)},laws:{{{','.join(members_of_laws)}}}}};\n}})()"])
+
+
+def _null_space_basis(arm: Arm, task: Task, q: SX) -> SX:
+    """Return an orthonormal basis (n, n - m) of the null space of the task Jacobian, which is empty for n = m."""
+    # All six rows have the same null space in every frame, and one frame has the fewest operations.
+    jacobian = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
+    basis = factor_householder(jacobian).null_space_basis()
+    return ca.vertcat(*[ca.horzcat(*row) for row in basis]) if arm.n > task.m else ca.SX(arm.n, 0)
+
+
+def _inverse_kinematics_program(arm: Arm, task: Task, q: SX) -> Program:
+    """Return ``q, target pose (3, 4), free joints (n,) -> next q, norm of the error at q``.
+
+    Errors are in rad, and lengths in units of the arm's own length.
+    """
+    target, free = ca.SX.sym("target", 3, 4), ca.SX.sym("free", arm.n)
+    error, jacobian = scaled_error_and_jacobian(arm, task, q, target[:, 3], target[:, :3])
+    masked = ca.horzcat(*[jacobian[:, k] * free[k] for k in range(arm.n)])
+    next_q, residual = damped_step_and_residual(arm, q, error, masked)
+    return Program("inverse kinematics step", [q, target, free], [next_q, ca.sqrt(residual)])
+
+
+def _law_program(arm: Arm, label: str, q: SX) -> Program:
+    """Return ``q, velocity of the tool point in the world (3,) -> joint rates``."""
+    velocity = ca.SX.sym("velocity", 3)
+    law = by_name(label, arm, task=default_path_task(arm, oriented=False))
+    return Program(law.name, [q, velocity], [law.rates(q, ca.sparsify(ca.SX(ca.DM(law.task.rows[:, :3]))) @ velocity)])
+
+
+def _accelerations_program(arm: Arm, q: SX) -> Program | None:
+    """Return ``q, joint rates, free joints (n,) -> joint accelerations`` without torques, or None without inertial data."""
+    if any(link is None for link in arm.links):
+        return None
+    rates, passive = ca.SX.sym("rates", arm.n), PassiveArm(arm)
+    viscous = ca.SX(ca.DM([joint.friction for joint in arm.joints]))
+    return Program("accelerations", [q, rates, passive.symbols["free"]], [passive.accelerations(q, rates, viscous)])
