@@ -15,6 +15,8 @@ export interface KinematicStep {
 
 export class ArmModel {
   readonly jointCount: number;
+  /** Number of joints minus the number of task rows. */
+  readonly redundancy: number;
   /** Limits of each joint, infinite where there is none. */
   readonly lower: Float64Array;
   readonly upper: Float64Array;
@@ -22,6 +24,7 @@ export class ArmModel {
   /** `taskRows` (m x 6) select from a twist in the world, linear part first. */
   constructor(readonly kernels: PrintedKernels, readonly joints: Joint[], readonly taskRows: number[][]) {
     this.jointCount = joints.length;
+    this.redundancy = joints.length - taskRows.length;
     this.lower = Float64Array.from(joints, (joint) => joint.low ?? -Infinity);
     this.upper = Float64Array.from(joints, (joint) => joint.high ?? Infinity);
   }
@@ -47,7 +50,7 @@ export class ArmModel {
 
   /** Row of each joint (n x r) in an orthonormal basis of the null space of the task Jacobian. */
   nullSpace = (q: Values): Rows =>
-    splitRows(evaluate(this.kernels.nullSpace, [q], this.jointCount * (this.jointCount - this.taskRows.length)), this.jointCount);
+    splitRows(evaluate(this.kernels.nullSpace, [q], this.jointCount * this.redundancy), this.jointCount);
 
   /** Step towards a pose of the tool by the free joints (n, each 0 or 1), within the limits. */
   stepTowards(q: Values, target: Values, free: Values): KinematicStep {

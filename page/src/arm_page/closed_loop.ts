@@ -39,27 +39,39 @@ export function simulateControl(
   settings: ControlSettings,
 ): ControlledMotion {
   const free = arm.freeJoints(locked);
+  const errorAt = (state: Float64Array): Float64Array => addScaled(target, arm.toolPosition(state), -1);
   const rates = (state: Float64Array): Float64Array => {
-    const error = addScaled(target, arm.toolPosition(state), -1);
+    const error = errorAt(state);
     const gain = Math.min(settings.gain, settings.speed / vectorNorm(error));
     return arm.commandRates(settings.law, state, error.map((value) => gain * value)).map((rate, k) => free[k] * rate);
   };
   const motion: ControlledMotion = { time: [], configurations: [], trail: [], deviation: 0, arrivalTime: null };
   let state: Float64Array = Float64Array.from(q);
-  const line = addScaled(target, arm.toolPosition(state), -1);
+  const line = errorAt(state);
   for (let step = 0; step <= DURATION_S / STEP_S && state.every(Number.isFinite); step++) {
-    const position = arm.toolPosition(state);
-    const error = addScaled(target, position, -1);
+    const error = errorAt(state);
     motion.time.push(step * STEP_S);
     motion.configurations.push(state);
-    motion.trail.push(position);
+    motion.trail.push(arm.toolPosition(state));
     motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
-    const distance = vectorNorm(error);
-    if (distance <= ARRIVAL_M) motion.arrivalTime ??= step * STEP_S;
-    if (distance <= END_M) break;
-    state = stepRungeKutta(rates, state, STEP_S);
+    if (vectorNorm(error) <= ARRIVAL_M) motion.arrivalTime ??= step * STEP_S;
+    if (vectorNorm(error) <= END_M) break;
+    state = stepAcrossSlowdown(rates, state, (next) => vectorNorm(errorAt(next)) - settings.speed / settings.gain);
   }
   return motion;
+}
+
+/** Return the state after a step, which is split where the tool begins to slow down, because the velocity has a kink there. */
+function stepAcrossSlowdown(
+  derivative: (state: Float64Array) => Float64Array,
+  state: Float64Array,
+  distanceToSlowdown: (state: Float64Array) => number,
+): Float64Array {
+  const next = stepRungeKutta(derivative, state, STEP_S);
+  const [before, after] = [distanceToSlowdown(state), distanceToSlowdown(next)];
+  if (before > 0 === after > 0) return next;
+  const first = (STEP_S * before) / (before - after);
+  return stepRungeKutta(derivative, stepRungeKutta(derivative, state, first), STEP_S - first);
 }
 
 /** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */

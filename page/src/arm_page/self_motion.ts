@@ -10,8 +10,9 @@ const LEAST_STEP_RAD = 1e-4;
 const LEAST_SLOPE = 1e-9;
 const MAX_STEPS = 1000;
 const MAX_CORRECTORS = 8;
-/** A step that moves the arm by less than this fraction of its length ends the motion. */
+/** A step is halved if it moves the arm by less than this fraction of its length, or if the direction turns by more. */
 const LEAST_PROGRESS = 0.4;
+const LEAST_COSINE = 0.7;
 /** Distance from q, in steps, within which the motion has returned to q. */
 const RETURN_STEPS = 0.75;
 
@@ -58,43 +59,61 @@ interface OneWay {
 
 function traceOneWay(arm: ArmModel, start: Float64Array, target: Float64Array, sign: number): OneWay {
   const configurations: Float64Array[] = [];
-  const free = arm.freeJoints([]);
   let [q, previous]: [Float64Array, Float64Array | null] = [start, null];
   while (configurations.length < MAX_STEPS) {
     const tangent = selfMotionDirection(arm, q, sign, previous);
     if (tangent === null) return { configurations, end: "no progress" };
-    const step = Math.min(STEP_RAD, distanceToLimits(arm, q, tangent));
-    if (step < LEAST_STEP_RAD) return { configurations, end: "limit" };
-    const corrected = reachTarget(arm, addScaled(q, tangent, step), target, free, MAX_CORRECTORS);
-    const progress = dotProduct(tangent, addScaled(corrected.configuration, q, -1));
-    if (!corrected.reached || progress < LEAST_PROGRESS * step) return { configurations, end: "no progress" };
-    [q, previous] = [corrected.configuration, tangent];
+    const longest = Math.min(STEP_RAD, distanceToLimits(arm, q, tangent));
+    if (longest < LEAST_STEP_RAD) return { configurations, end: "limit" };
+    const next = takeStep(arm, q, tangent, longest, target);
+    if (next === null) return { configurations, end: "no progress" };
+    [q, previous] = [next, tangent];
     if (configurations.length > 1 && isNear(arm, q, start)) return { configurations, end: "closed loop" };
     configurations.push(q);
   }
   return { configurations, end: "length" };
 }
 
+/** Return the configuration after a step along a tangent, which is halved where the motion turns sharply; null for none. */
+function takeStep(
+  arm: ArmModel,
+  q: Float64Array,
+  tangent: Float64Array,
+  longest: number,
+  target: Float64Array,
+): Float64Array | null {
+  for (let step = longest; step > LEAST_STEP_RAD; step /= 2) {
+    const predicted = addScaled(q, tangent, step);
+    const { configuration, reached } = reachTarget(arm, predicted, target, arm.freeJoints([]), MAX_CORRECTORS);
+    if (!reached || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
+    const cosine = Math.abs(dotProduct(nullDirection(arm, configuration, 0), tangent));
+    if (arm.redundancy > 1 || cosine > LEAST_COSINE) return configuration;
+  }
+  return null;
+}
+
 /** Return the unit direction (n) of the motion at q, which continues the previous one; null where it would turn back. */
 function selfMotionDirection(arm: ArmModel, q: Float64Array, sign: number, previous: Float64Array | null): Float64Array | null {
-  const nullSpace = arm.nullSpace(q);
-  const redundancy = nullSpace[0].length;
-  if (redundancy === 0) return null;
-  if (redundancy === 1) {
-    const tangent = Float64Array.from(nullSpace, (row) => row[0]);
+  if (arm.redundancy === 0) return null;
+  if (arm.redundancy === 1) {
+    const tangent = nullDirection(arm, q, 0);
     const orientation = previous === null ? sign : Math.sign(dotProduct(tangent, previous));
     return tangent.map((value) => orientation * value);
   }
   // Differences over a step average the gradients on both sides of a kink of the worst case.
-  const slopes = Float64Array.from({ length: redundancy }, (_, column) => {
-    const offset = Float64Array.from(nullSpace, (row) => row[column]);
+  const slopes = Float64Array.from({ length: arm.redundancy }, (_, column) => {
+    const offset = nullDirection(arm, q, column);
     return worstCase(arm, addScaled(q, offset, STEP_RAD / 2)) - worstCase(arm, addScaled(q, offset, -STEP_RAD / 2));
   });
-  const gradient = Float64Array.from(nullSpace, (row) => dotProduct(row, slopes));
+  const gradient = Float64Array.from(arm.nullSpace(q), (row) => dotProduct(row, slopes));
   const norm = vectorNorm(gradient);
   if (norm < LEAST_SLOPE || (previous !== null && sign * dotProduct(gradient, previous) <= 0)) return null;
   return gradient.map((value) => (sign * value) / norm);
 }
+
+/** Return a unit vector (n) of the basis of the null space. */
+const nullDirection = (arm: ArmModel, q: Values, column: number): Float64Array =>
+  Float64Array.from(arm.nullSpace(q), (row) => row[column]);
 
 /** Return how far q can move along a direction until a joint is at its limit. */
 function distanceToLimits(arm: ArmModel, q: Float64Array, direction: Float64Array): number {
