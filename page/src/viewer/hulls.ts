@@ -7,26 +7,31 @@ import type { Body, Lines, Picture, Renderer } from "./renderer";
 import type { Part, Vector } from "./scene";
 import { vertices } from "./shapes";
 
-export type Point = [number, number];
+/** x, y, and possibly more, pixels. */
+type Point = number[];
 
 const RING_CORNERS = 24; // of each flat end of a tube
+const BALL_CORNERS = 96; // of each round end of a tube
+const MESH_DIRECTIONS = 320; // in which a mesh keeps its extreme vertex
 const NEAREST_M = 0.01; // distance before the eye
 const OBJECT_OPACITY = 0.35;
 const OUTLINE_PX = 1.1;
 
 /** Directions that are spread evenly over a sphere, on a spiral by the golden angle. */
-export const DIRECTIONS: Vector[] = Array.from({ length: 160 }, (_, k) => {
-  const height = 1 - (2 * k + 1) / 160;
-  const angle = Math.PI * (3 - Math.sqrt(5)) * k;
-  const radius = Math.sqrt(1 - height * height);
-  return [radius * Math.cos(angle), radius * Math.sin(angle), height];
-});
+export function spreadDirections(count: number): Vector[] {
+  return Array.from({ length: count }, (_, k) => {
+    const height = 1 - (2 * k + 1) / count;
+    const angle = Math.PI * (3 - Math.sqrt(5)) * k;
+    const radius = Math.sqrt(1 - height * height);
+    return [radius * Math.cos(angle), radius * Math.sin(angle), height];
+  });
+}
 
 /** Corners of a part in the frame of its link, m: of a mesh, the extreme vertices along each direction. */
 export function corners({ mesh, tube, round }: Part): Vector[] {
   if (mesh) {
     const all = vertices(mesh);
-    const extremes = DIRECTIONS.map(([x, y, z]) => {
+    const extremes = spreadDirections(MESH_DIRECTIONS).map(([x, y, z]) => {
       let [best, highest] = [0, -Infinity];
       for (let k = 0; k < all.length; k += 3) {
         const height = x * all[k] + y * all[k + 1] + z * all[k + 2];
@@ -38,7 +43,7 @@ export function corners({ mesh, tube, round }: Part): Vector[] {
   }
   const [a, b, c, d, e, f, radius] = tube as number[];
   const ends: Vector[] = [[a, b, c], [d, e, f]];
-  if (round) return ends.flatMap((end) => DIRECTIONS.map((direction) => sum(end, direction, radius)));
+  if (round) return ends.flatMap((end) => spreadDirections(BALL_CORNERS).map((direction) => sum(end, direction, radius)));
   const axis = unit(sum(ends[1], ends[0], -1));
   const first = across(axis);
   const second = cross(axis, first);

@@ -1,23 +1,50 @@
 /** SVG over the picture of an arm: ellipsoids, lost directions, trails, locks, and labels; CSS classes colour them. */
 
 import { createSvg } from "../dom";
-import { sum } from "./algebra";
-import { DIRECTIONS, hull, type Point } from "./hulls";
+import { place, sum } from "./algebra";
+import { project } from "./camera";
+import { hull, spreadDirections } from "./hulls";
 import type { Vector } from "./scene";
 import { mark } from "./things";
+import type { View } from "./view";
 
-/** A point of the world, m, in CSS pixels from the upper left corner of the picture. */
-export type Project = (point: Vector) => number[];
-
-export interface Ellipsoid {
+export interface DrawnEllipsoid {
   center: Vector;
-  /** Half axes, m on the picture. */
+  /** Half axes, m/s, and the unit vector of each in the world. */
   halfAxes: Vector;
-  /** Unit vector of each half axis in the world. */
   directions: [Vector, Vector, Vector];
+  /** Before or after the lock. */
+  style: "before" | "after";
 }
 
+export interface Trail {
+  points: Vector[];
+  style: "solid" | "dotted" | "dashed";
+}
+
+export interface LostMotion {
+  center: Vector;
+  /** Linear, then angular, world frame, of norm 1. */
+  twist: number[];
+  label: string;
+}
+
+/** What lies over a picture, in the world. */
+export interface OverlayContent {
+  ellipsoids?: DrawnEllipsoid[];
+  trails?: Trail[];
+  lost?: LostMotion[];
+  /** A dotted line from the tool to where the pointer wants it. */
+  pointerLine?: [Vector, Vector];
+}
+
+/** From a point of the world, m, to CSS pixels from the upper left corner of the picture. */
+export type Project = (point: Vector) => number[];
+
+const ELLIPSOID_SCALE_S = 0.4; // metres on the picture for a half axis of 1 m/s
+const LOST_LENGTH = 0.26; // of the stretched arm
 const CURVE_CORNERS = 48;
+const SURFACE = spreadDirections(160);
 
 function trace(points: number[][], closed = false): string {
   return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}${closed ? "Z" : ""}`;
@@ -29,64 +56,66 @@ const group = (name: string, ...children: SVGElement[]): SVGElement => {
   return element;
 };
 
-/** Three principal curves, dashed before a lock; after the lock solid, over a filled outline. */
-export function drawEllipsoid(project: Project, { center, halfAxes, directions }: Ellipsoid, when: "before" | "after"): SVGElement {
-  const locate = (share: Vector): Vector =>
-    share.reduce((point, x, k) => sum(point, directions[k], x * halfAxes[k]), center);
-  const curves = [0, 1, 2].map((k) => {
-    const corners = Array.from({ length: CURVE_CORNERS }, (_, j) => {
+/** Draw three principal curves, and the filled outline of the ellipsoid after a lock. */
+export function drawEllipsoid(locate: Project, { center, halfAxes, directions, style }: DrawnEllipsoid): SVGElement {
+  const placeShare = (share: Vector): number[] =>
+    locate(share.reduce((point, x, k) => sum(point, directions[k], x * ELLIPSOID_SCALE_S * halfAxes[k]), center));
+  const curves = [0, 1, 2].map((k) =>
+    Array.from({ length: CURVE_CORNERS }, (_, j) => {
       const share: Vector = [0, 0, 0];
       share[(k + 1) % 3] = Math.cos((2 * Math.PI * j) / CURVE_CORNERS);
       share[(k + 2) % 3] = Math.sin((2 * Math.PI * j) / CURVE_CORNERS);
-      return project(locate(share));
-    });
-    return createSvg("path", { d: trace(corners, true) });
-  });
-  if (when === "before") return group(when, ...curves);
-  const outline = hull(DIRECTIONS.map((share) => project(locate(share)).slice(0, 2) as Point));
-  return group(when, createSvg("path", { class: "overlay-fill", d: trace(outline, true) }), ...curves);
+      return placeShare(share);
+    }),
+  );
+  const paths = curves.map((curve) => createSvg("path", { d: trace(curve, true) }));
+  if (style === "before") return group("ellipsoid overlay-before", ...paths);
+  const outline = hull([...curves.flat(), ...SURFACE.map(placeShare)]);
+  return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: trace(outline, true) }), ...paths);
 }
 
-/** The direction of a twist that is lost: an arrow in both directions and a ring of a size, m, about the axis of rotation. */
-export function drawLostDirection(project: Project, center: Vector, twist: number[], length: number): SVGElement {
-  const { lines } = mark({ twist, words: "" }, center, length);
-  const segments = lines.flatMap((_, k) => (k % 2 ? [] : [trace([project(lines[k]), project(lines[k + 1])])]));
-  return group("lost", createSvg("path", { d: segments.join("") }));
+/** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label at the end. */
+export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number): SVGElement {
+  const { lines, end } = mark({ twist, words: label }, center, length);
+  const segments = lines.flatMap((start, k) => (k % 2 ? [] : [trace([locate(start), locate(lines[k + 1])])]));
+  const [x, y] = locate(end);
+  const text = createSvg("text", { class: "overlay-label", x: (x + 10).toFixed(1), y: (y - 6).toFixed(1) }, label);
+  return group("lost", createSvg("path", { d: segments.join("") }), text);
 }
 
-/** The path of the tool. */
-export function drawTrail(project: Project, points: Vector[], style: "solid" | "dotted" | "dashed"): SVGElement {
-  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: points.length ? trace(points.map(project)) : "" });
+export function drawTrail(locate: Project, { points, style }: Trail): SVGElement {
+  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: trace(points.map(locate)) });
 }
 
-/** Text to the right of a point, whose class names its kind. */
-export function drawLabel(project: Project, point: Vector, text: string, kind = "note"): SVGElement {
-  const [x, y] = project(point);
-  return createSvg("text", { class: `overlay-label overlay-${kind}`, x: (x + 14).toFixed(1), y: (y + 4).toFixed(1) }, text);
-}
-
-/** A padlock at a locked joint. */
-export function drawPadlock(project: Project, joint: Vector): SVGElement {
-  const [x, y] = project(joint);
-  const lock = group("padlock", createSvg("path", { d: "M-4 -1V-5A4 4 0 0 1 4 -5V-1" }), createSvg("rect", { x: -7, y: -1, width: 14, height: 10, rx: 2 }));
+export function drawPadlock(locate: Project, joint: Vector): SVGElement {
+  const [x, y] = locate(joint);
+  const [shackle, body] = ["M-4 -1V-5A4 4 0 0 1 4 -5V-1", "M-7 -1H7V9H-7Z"];
+  const lock = group("padlock", createSvg("path", { d: shackle }), createSvg("path", { class: "overlay-fill", d: body }));
   lock.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
   return lock;
 }
 
-/** A dotted line from the tool to a target that it does not reach. */
-export function drawGap(project: Project, tool: Vector, target: Vector): SVGElement {
-  return createSvg("path", { class: "overlay-gap", d: trace([project(tool), project(target)]) });
-}
-
-/** The SVG element over the canvas of a view; pointers pass through it. */
+/** An SVG element over the canvas of a view; pointers pass through it. */
 export class Overlay {
   readonly element = createSvg("svg", { class: "view3d-overlay", "aria-hidden": "true" });
 
-  constructor(canvas: HTMLCanvasElement) {
-    canvas.after(this.element);
+  constructor(private readonly view: View) {
+    view.canvas.after(this.element);
   }
 
-  show(...elements: SVGElement[]): void {
-    this.element.replaceChildren(...elements);
+  /** Show the content, and a padlock at each locked joint. */
+  show({ ellipsoids = [], trails = [], lost = [], pointerLine }: OverlayContent): void {
+    const { view } = this;
+    const { clientWidth, clientHeight } = view.canvas;
+    const matrix = view.camera.matrix(clientWidth / clientHeight);
+    const locate: Project = (point) => project(matrix, point, clientWidth, clientHeight);
+    const poses = view.frames();
+    this.element.replaceChildren(
+      ...ellipsoids.map((ellipsoid) => drawEllipsoid(locate, ellipsoid)),
+      ...trails.map((trail) => drawTrail(locate, trail)),
+      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size)),
+      ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
+      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: trace(pointerLine.map(locate)) })] : []),
+    );
   }
 }

@@ -97,6 +97,17 @@ export class View {
     return this.ghosts ? [all[0], ...this.ghosts] : all;
   }
 
+  /** Condition of a joint, from 0, at the shown frame; null for a healthy joint and for a link. */
+  condition(k: number | undefined): Condition {
+    const { free, locked, time } = this.scene;
+    if (k === undefined) return null;
+    if (this.conditions) return this.conditions[k];
+    if (free.includes(k)) return "free";
+    const from = locked[k];
+    if (from === null) return null;
+    return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9 ? "locked" : null;
+  }
+
   /** Poses of the first arm: base, joints, tool. */
   frames(): Pose[] {
     return this.solve(this.configurations()[0]);
@@ -140,16 +151,6 @@ export class View {
   }
 
   // ---- drawing -----------------------------------------------------------------------------------------------------
-
-  private condition(k: number | undefined): Condition {
-    const { free, locked, time } = this.scene;
-    if (k === undefined) return null;
-    if (this.conditions) return this.conditions[k];
-    if (free.includes(k)) return "free";
-    const from = locked[k];
-    if (from === null) return null;
-    return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9 ? "locked" : null;
-  }
 
   /** Return true if there was enough room and a canvas to draw on. */
   private paint(): boolean {

@@ -27,7 +27,8 @@ from holdfast.interface.report.palette import BLUE, FAINT, GREEN, ORANGE, PURPLE
 _TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # the same angle of view as in camera.ts
 _DRAWING_SIDE_PX = 400  # side of the square that a view always contains; it draws beyond the square where there is room
 _RING_CORNERS = 24  # corners of each flat end of a tube, as in hulls.ts
-_SPHERE_DIRECTIONS = 160
+_BALL_CORNERS = 96
+_MESH_DIRECTIONS = 320
 _HULL_DIRECTIONS = 72  # directions on the drawing in which a hull has its corners
 _GREEN = f"var(--view3d-green, {GREEN})"  # the palette of viewer.css, and a colour for pages without it
 _BLUE = f"var(--view3d-blue, {BLUE})"
@@ -224,22 +225,28 @@ def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[FloatArray, F
 
 def part_corners(part: Mapping[str, Any]) -> FloatArray:
     """Return points (V, 3), m, whose convex hull is that of an encoded part, in the frame of its link, as hulls.ts does."""
-    index = np.arange(_SPHERE_DIRECTIONS)
-    height, turn = 1 - (2 * index + 1) / _SPHERE_DIRECTIONS, np.pi * (3 - np.sqrt(5)) * index
-    radius = np.sqrt(1 - height**2)
-    directions = np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=1)
     if "mesh" in part:
         low, side, points = (part["mesh"][key] for key in ("low", "side", "points"))
         vertices = np.array(low) + np.frombuffer(b64decode(points), "<u2").reshape(-1, 3) * (side / 65535)
-        return np.asarray(vertices[np.unique(np.argmax(vertices @ directions.T, axis=0))])
-    start, end, tube_radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
-    if not part["round"]:
+        return np.asarray(vertices[np.unique(np.argmax(vertices @ _spread_directions(_MESH_DIRECTIONS).T, axis=0))])
+    start, end, radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
+    if part["round"]:
+        directions = _spread_directions(_BALL_CORNERS)
+    else:
         axis = (end - start) / np.linalg.norm(end - start)
         first = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
         first /= np.linalg.norm(first)
-        turn = np.linspace(0, 2 * np.pi, _RING_CORNERS, endpoint=False)[:, None]
-        directions = np.cos(turn) * first + np.sin(turn) * np.cross(axis, first)
-    return np.concatenate([start + tube_radius * directions, end + tube_radius * directions])
+        angles = np.linspace(0, 2 * np.pi, _RING_CORNERS, endpoint=False)[:, None]
+        directions = np.cos(angles) * first + np.sin(angles) * np.cross(axis, first)
+    return np.concatenate([start + radius * directions, end + radius * directions])
+
+
+def _spread_directions(count: int) -> FloatArray:
+    """Return unit vectors (count, 3) that are spread evenly over a sphere, on a spiral by the golden angle."""
+    index = np.arange(count)
+    heights, angles = 1 - (2 * index + 1) / count, np.pi * (3 - np.sqrt(5)) * index
+    radii = np.sqrt(1 - heights**2)
+    return np.stack([radii * np.cos(angles), radii * np.sin(angles), heights], axis=1)
 
 
 def draw_scene_svg(scene: ViewerScene, about: str) -> str:
@@ -271,17 +278,16 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
         }
         shapes = []
         for part in data["parts"]:
-            if (
-                part.get("mark", False) is marks
-                and not (marks and part["joint"] not in failed)
-                and not (arm and not part["frame"])
-            ):
+            is_shown = part.get("joint") in failed if marks else part["frame"] or not arm
+            if part.get("mark", False) is marks and is_shown:
                 pose = scene.frames[arm, frame, part["frame"]]
                 points = part_corners(part) @ pose[:3, :3].T + pose[:3, 3]
+                depth_mm = round(1000 * float(distance - (points.mean(axis=0) - center) @ towards_camera))
                 color = arm_colors[arm % 5] if arm else "rgb({},{},{})".format(*part["color"])
                 hull = _draw_hull(part, project(points), failed.get(part.get("joint"), color))
-                shapes.append(("object" not in part, float(points.mean(axis=0) @ towards_camera), hull))
-        return f'<g stroke="{_OUTLINE}" opacity="{opacity}">{"".join(hull for *_, hull in sorted(shapes))}</g>'
+                shapes.append(("object" not in part, -depth_mm, hull))
+        hulls = "".join(hull for *_, hull in sorted(shapes, key=lambda shape: shape[:2]))
+        return f'<g stroke="{_OUTLINE}" opacity="{opacity}">{hulls}</g>'
 
     failures = dict.fromkeys(data["free"], (_PURPLE, 0.0))
     failures |= {joint: (_ORANGE, since) for joint, since in enumerate(data["locked"]) if since is not None}
