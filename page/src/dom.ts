@@ -27,6 +27,14 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** An SVG element with attributes and text. */
+export function createSvg(tag: string, attributes: Record<string, string | number> = {}, text = ""): SVGElement {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  if (text) element.textContent = text;
+  return element;
+}
+
 /** Paragraphs of a text, separated by empty lines. */
 export function paragraphs(text: string): HTMLParagraphElement[] {
   return text

@@ -1,13 +1,6 @@
 /** Line plots as SVG, with axes, units, and a text alternative. */
 
-const NAMESPACE = "http://www.w3.org/2000/svg";
-
-export function createSvg(tag: string, attributes: Record<string, string | number> = {}, text = ""): SVGElement {
-  const element = document.createElementNS(NAMESPACE, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  if (text) element.textContent = text;
-  return element;
-}
+import { createSvg } from "../dom";
 
 export interface Curve {
   x: number[];

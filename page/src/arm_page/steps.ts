@@ -1,11 +1,11 @@
 /** The five steps of the story. Each one sets the joints, shows its controls, and adds to the picture. */
 
-import { h } from "../dom";
+import { createSvg, h } from "../dom";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Condition, StepName } from "./address";
 import type { ArmPage } from "./arm_page";
 import { simulateControl, type ControlledMotion } from "./closed_loop";
-import { createSvg, drawCurve } from "./curves";
+import { drawCurve } from "./curves";
 import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
 import { capitalise, fillText, formatAngle, formatLength, formatPercent, joinNames } from "./phrases";
 import { simulateFall, swingJoint, type Fall, type Swing } from "./power_loss";

@@ -1,4 +1,4 @@
-/** Replaces the static pictures of a page by views that can be rotated, if the browser has WebGL. */
+/** Replaces the static pictures of a page by views that can be rotated, if the browser has a canvas. */
 
 import type { Scene } from "./scene";
 import { View } from "./view";
@@ -16,11 +16,10 @@ for (const box of document.querySelectorAll<Box>(".view3d")) {
     const body = document.querySelector(`.view3d-body[data-key="${scene.parts}"] script`);
     scene.parts = JSON.parse(body?.textContent ?? "") as Scene["parts"];
     box.view3d = new View(box, canvas, scene);
-    box.classList.add("view3d-live");
     if (hint) {
       hint.textContent = "Drag or use the arrow keys to rotate, + and - or the wheel to zoom, and 0 to reset. Shift and drag to move.";
     }
   } catch {
-    if (hint) hint.textContent = "The view cannot be rotated, because this browser has no WebGL or has disabled it.";
+    if (hint) hint.textContent = "The view cannot be rotated, because this browser cannot draw on a canvas.";
   }
 }

@@ -1,15 +1,10 @@
 /** Draws triangles, lines and dots with WebGL. One for all views of a page: browsers keep only a few contexts alive. */
 
-import type { Triangles } from "./shapes";
-import type { Pose, Vector } from "./scene";
+import type { Body, Lines, Picture, Renderer } from "./renderer";
+import type { Part, Vector } from "./scene";
+import { triangles } from "./shapes";
 
-/** One colour, `width` in pixels; two points a segment. */
-export interface Lines {
-  points: Vector[];
-  color: Vector;
-  width: number;
-  opacity?: number;
-}
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // names of renderers that use the processor
 
 const SOLID = `
 attribute vec3 place, normal;
@@ -69,21 +64,25 @@ void main() {
   gl_FragColor = vec4(c * (r > 0.38 ? 0.7 : 1.0), 1.0);
 }`;
 
-export class Painter {
+export class Painter implements Renderer {
+  readonly hidesFarther = true;
   readonly canvas = document.createElement("canvas");
+  /** Whether the processor draws, which is slower than hulls. */
+  readonly software: boolean;
   private readonly gl: WebGLRenderingContext;
   private readonly programs: Record<"solid" | "line" | "dot", WebGLProgram>;
-  private readonly buffers = new Map<Triangles, WebGLBuffer>();
+  private readonly buffers = new WeakMap<Part, { buffer: WebGLBuffer; count: number }>();
   private readonly scratch: WebGLBuffer;
   private program: WebGLProgram;
-  private pixels: [number, number] = [1, 1];
-  private matrix: Float32Array = new Float32Array(16);
+  private picture: Picture | null = null;
 
   /** Throws where there is no WebGL. */
   constructor() {
     const gl = this.canvas.getContext("webgl", { alpha: true, antialias: true, premultipliedAlpha: true });
     if (!gl) throw new Error("no WebGL");
     this.gl = gl;
+    const info = gl.getExtension("WEBGL_debug_renderer_info");
+    this.software = SOFTWARE.test(String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
     this.programs = { solid: this.built(SOLID, SHADED), line: this.built(LINE, FLAT), dot: this.built(DOT, ROUND) };
     this.program = this.programs.solid;
     this.scratch = gl.createBuffer() as WebGLBuffer;
@@ -114,8 +113,9 @@ export class Painter {
     return program;
   }
 
-  begin(width: number, height: number, matrix: Float32Array): void {
+  begin(picture: Picture): void {
     const { canvas, gl } = this;
+    const { width, height } = picture.onto.canvas;
     // Only ever larger: a new size is a new picture for the graphics card.
     if (canvas.width < width) canvas.width = width;
     if (canvas.height < height) canvas.height = height;
@@ -123,19 +123,20 @@ export class Painter {
     gl.clearColor(0, 0, 0, 0);
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    this.matrix = matrix;
-    this.pixels = [width / 2, height / 2];
+    this.picture = picture;
   }
 
-  /** What was drawn, onto a canvas of the size that `begin` was told. */
-  finish(onto: CanvasRenderingContext2D, width: number, height: number): void {
+  /** Copy the picture onto the canvas of its view. */
+  finish(): void {
+    const { onto } = this.picture as Picture;
+    const { width, height } = onto.canvas;
     onto.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
   }
 
   private use(name: "solid" | "line" | "dot"): void {
     this.program = this.programs[name];
     this.gl.useProgram(this.program);
-    this.gl.uniformMatrix4fv(this.uniform("seen"), false, this.matrix);
+    this.gl.uniformMatrix4fv(this.uniform("seen"), false, (this.picture as Picture).matrix);
   }
 
   private uniform(name: string): WebGLUniformLocation | null {
@@ -158,12 +159,13 @@ export class Painter {
   }
 
   /** Bodies, each where a pose puts it. See-through ones hide what is behind their own front. */
-  solids(bodies: { shape: Triangles; pose: Pose; color: Vector }[], eye: Vector, up: Vector, side: Vector, opacity = 1): void {
+  solids(bodies: Body[], opacity = 1): void {
     const gl = this.gl;
+    const { eye, up, right, palette } = this.picture as Picture;
     this.use("solid");
     gl.uniform3fv(this.uniform("eye"), eye);
     gl.uniform3fv(this.uniform("up"), up);
-    gl.uniform3fv(this.uniform("side"), side);
+    gl.uniform3fv(this.uniform("side"), right);
     gl.uniform1f(this.uniform("opacity"), opacity);
     const pose = this.uniform("pose");
     const color = this.uniform("color");
@@ -174,23 +176,27 @@ export class Painter {
     for (const painted of opacity < 1 ? [false, true] : [true]) {
       gl.colorMask(painted, painted, painted, painted);
       for (const body of bodies) {
-        this.bound(body.shape);
+        const count = this.bind(body.part);
         this.attributes([["place", 3], ["normal", 3]]);
         const m = body.pose;
         gl.uniformMatrix4fv(pose, false, [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]));
-        gl.uniform3fv(color, body.color);
-        gl.drawArrays(gl.TRIANGLES, 0, body.shape.length / 6);
+        gl.uniform3fv(color, palette.dark ? body.color.map((x) => 0.25 + 0.75 * x) : body.color);
+        gl.drawArrays(gl.TRIANGLES, 0, count);
       }
     }
   }
 
-  private bound(shape: Triangles): void {
+  /** Select the buffer of a part, and return how many vertices it has. */
+  private bind(part: Part): number {
     const gl = this.gl;
-    const known = this.buffers.get(shape);
-    gl.bindBuffer(gl.ARRAY_BUFFER, known ?? gl.createBuffer());
-    if (known) return;
+    const known = this.buffers.get(part);
+    const buffer = known?.buffer ?? (gl.createBuffer() as WebGLBuffer);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    if (known) return known.count;
+    const shape = triangles(part);
     gl.bufferData(gl.ARRAY_BUFFER, shape, gl.STATIC_DRAW);
-    this.buffers.set(shape, gl.getParameter(gl.ARRAY_BUFFER_BINDING) as WebGLBuffer);
+    this.buffers.set(part, { buffer, count: shape.length / 6 });
+    return shape.length / 6;
   }
 
   lines({ points, color, width, opacity = 1 }: Lines): void {
@@ -207,7 +213,8 @@ export class Painter {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
     this.attributes([["place", 3], ["other", 3], ["side", 1]]);
-    gl.uniform2fv(this.uniform("pixels"), this.pixels);
+    const { width: right, height: down } = (this.picture as Picture).onto.canvas;
+    gl.uniform2fv(this.uniform("pixels"), [right / 2, down / 2]);
     gl.uniform1f(this.uniform("width"), width / 2);
     gl.uniform3fv(this.uniform("color"), color);
     gl.uniform1f(this.uniform("opacity"), opacity);

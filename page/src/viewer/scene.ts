@@ -32,6 +32,8 @@ export interface Part {
   mesh?: { low: Vector; side: number; points: string; faces: string };
   /** Drawn over everything else, and only while its joint is locked. */
   mark?: boolean;
+  /** An object around the arm. */
+  object?: boolean;
 }
 
 export interface Arm {

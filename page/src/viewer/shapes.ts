@@ -61,14 +61,16 @@ function bytes(text: string): ArrayBuffer {
   return out.buffer;
 }
 
+/** Coordinates x, y, z of the vertices of a mesh, m. */
+export function vertices({ low, side, points }: NonNullable<Part["mesh"]>): Float64Array {
+  return Float64Array.from(new Uint16Array(bytes(points)), (number, k) => low[k % 3] + (side * number) / 65535);
+}
+
 /** A mesh as its file has it, smooth but for its edges. */
-export function mesh({ low, side, points, faces }: NonNullable<Part["mesh"]>): Triangles {
-  const numbers = new Uint16Array(bytes(points));
-  const corners = new Uint16Array(bytes(faces));
-  const at = (k: number): Vector => {
-    const p = 3 * corners[k];
-    return [0, 1, 2].map((j) => low[j] + (side * numbers[p + j]) / 65535) as Vector;
-  };
+export function mesh(part: NonNullable<Part["mesh"]>): Triangles {
+  const numbers = vertices(part);
+  const corners = new Uint16Array(bytes(part.faces));
+  const at = (k: number): Vector => [...numbers.subarray(3 * corners[k], 3 * corners[k] + 3)] as Vector;
   const count = corners.length / 3;
   const large: Vector[] = []; // normals as long as twice the areas
   const small: Vector[] = [];

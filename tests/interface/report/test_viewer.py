@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
+import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -85,13 +88,19 @@ def test_objects_of_a_cell_are_drawn_where_they_are(turn):
     ]
     shown = scene(arms.load("panda").with_base(base), cell=hf.Cell(solids))
     assert [x["name"] for x in shown.data["objects"]] == ["box", "cylinder", "capsule", "sphere"]
-    for solid, corners in zip(solids, shown.object_corners, strict=True):
-        outside = solid.signed_distance(corners)
-        assert np.abs(outside).min() < 1e-9  # its corners are on its surface
-        assert outside.max() < 1e-9
-        np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
     drawn = viewer.draw_scene_svg(shown, "a cell")
-    assert drawn.count("<polygon") == len(solids)
+    for solid, part in zip(solids, [p for p in shown.data["parts"] if "object" in p], strict=True):
+        mesh = part["mesh"]
+        numbers = np.frombuffer(base64.b64decode(mesh["points"]), "<u2").reshape(-1, 3)
+        corners = (mesh["low"] + numbers * mesh["side"] / 65535) @ base[:3, :3].T + base[:3, 3]
+        outside = solid.signed_distance(corners)
+        assert np.abs(outside).min() < 2e-5  # its corners are on its surface, as far as they are rounded
+        assert outside.max() < 2e-5
+        np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
+        directions = (d := np.random.default_rng(0).normal(size=(20, 3))) / np.linalg.norm(d, axis=1)[:, None]
+        reach = (viewer.part_corners(part) @ base[:3, :3].T + base[:3, 3]) @ directions.T
+        np.testing.assert_allclose(reach.max(axis=0), (corners @ directions.T).max(axis=0), atol=0.005)
+    assert drawn.count('opacity="0.35"') == len(solids)
 
 
 def test_meshes_are_thinned_and_packed(rng):
@@ -189,7 +198,7 @@ def opened(browser, tmp_path):
     made = []
 
     def show(html, **options):
-        context = browser.new_context(viewport={"width": 700, "height": 900}, **options)
+        context = browser.new_context(**{"viewport": {"width": 700, "height": 900}} | options)
         made.append(context)
         context.route(re.compile("^(?!file:)"), lambda route: pytest.fail(f"the page asks for {route.request.url}"))
         found = context.new_page()
@@ -260,16 +269,214 @@ def test_a_motion_follows_its_slider_and_plays(opened):
     found.get_by_role("button", name="Pause").click()
 
 
-@pytest.mark.parametrize("off", ["script", "webgl"])
-def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
+@pytest.mark.parametrize("off", ["script", "canvas"])
+def test_without_a_script_or_a_canvas_there_is_a_drawing(opened, off):
     html = arms.load("panda").show().to_html()
-    if off == "webgl":
+    if off == "canvas":
         html = html.replace("<script>", "<script>HTMLCanvasElement.prototype.getContext = () => null;", 1)
-    found = opened(html, java_script_enabled=off == "webgl")
+    found = opened(html, java_script_enabled=off == "canvas")
     assert found.locator(".view3d-stage svg").is_visible()
     assert not found.locator("canvas").is_visible()
-    sentence = "this browser has no WebGL" if off == "webgl" else "Enable JavaScript"
+    sentence = "cannot draw on a canvas" if off == "canvas" else "Enable JavaScript"
     assert sentence in found.locator(".view3d-hint").inner_text()
+
+
+# What a page asks WebGL for, and what it says that it is.
+WEBGL = """
+const asked = HTMLCanvasElement.prototype.getContext, said = WebGLRenderingContext.prototype.getParameter;
+const paint = WebGLRenderingContext.prototype.drawArrays;
+window.contexts = 0; window.painted = 0;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  if (kind === "webgl") { window.contexts++; if (RENDERER === null) return null; }
+  return asked.call(this, kind, ...rest);
+};
+WebGLRenderingContext.prototype.getParameter = function (name) {
+  return RENDERER && (name === 37446 || name === 7937) ? RENDERER : said.call(this, name);
+};
+WebGLRenderingContext.prototype.drawArrays = function (...rest) { window.painted++; return paint.apply(this, rest); };
+"""
+
+
+@pytest.mark.parametrize("renderer", ["A graphics card", "SwiftShader", None])
+@pytest.mark.parametrize("surroundings", ["none", "cell", "region", "points"])
+def test_webgl_draws_surroundings_on_a_graphics_card_and_hulls_all_else(opened, renderer, surroundings):
+    pose = np.eye(4)
+    pose[:3, 3] = 0.6, -0.2, 0.4
+    options = {
+        "none": {},
+        "cell": {"cell": hf.Cell([hf.cell.Box("box", [0.2, 0.3, 0.4], pose=pose)])},
+        "region": {"region": [[0.3, -0.2, 0.3], [0.7, 0.2, 0.6]]},
+        "points": {"points": [[0.3, -0.2, 0.3], [0.7, 0.2, 0.6]]},
+    }[surroundings]
+    html = scene(arms.load("panda"), locked=[1], **options).to_html("arm", "An arm")
+    html = viewer.build_view_page(html, "t").replace(
+        "<script>", f"<script>{WEBGL.replace('RENDERER', json.dumps(renderer))}", 1
+    )
+    found = opened(html)
+    assert painted(found)[0] > 100
+    contexts, triangles = found.evaluate("[contexts, painted]")
+    assert (triangles > 0) is (surroundings != "none" and renderer == "A graphics card")
+    assert contexts == (surroundings != "none")  # a page holds few contexts: none is taken in vain
+
+
+# Closed polygons of each picture, in CSS pixels of the page.
+POLYGONS = """
+const own = CanvasRenderingContext2D.prototype, { clearRect, beginPath, lineTo, closePath } = own;
+own.clearRect = function (...rest) { this.polygons = []; return clearRect.apply(this, rest); };
+own.beginPath = function () { this.path = []; return beginPath.call(this); };
+own.lineTo = function (x, y) { this.path.push([x, y]); return lineTo.call(this, x, y); };
+own.closePath = function () { this.polygons.push(this.path); return closePath.call(this); };
+"""
+ON_CANVAS = """canvas => {
+  const { left, top, width } = canvas.getBoundingClientRect(), s = width / canvas.width;
+  return canvas.getContext("2d").polygons.map(p => p.map(([x, y]) => [left + s * x, top + s * y]));
+}"""
+ON_DRAWING = """svg => [...svg.querySelectorAll("polygon")].map(polygon => [...polygon.points].map(point => {
+  const at = point.matrixTransform(polygon.getScreenCTM());
+  return [at.x, at.y];
+}))"""
+
+
+def apart(corners, polygon):
+    """The largest distance of corners (N, 2) from the outline of a polygon (M, 2)."""
+    a = np.asarray(polygon)
+    way = np.roll(a, -1, axis=0) - a
+    corners = np.asarray(corners)[:, None]
+    t = np.clip(((corners - a) * way).sum(-1) / np.maximum((way**2).sum(-1), 1e-12), 0, 1)
+    return np.linalg.norm(a + t[..., None] * way - corners, axis=-1).min(axis=1).max()
+
+
+@pytest.fixture
+def block_arm(tmp_path):
+    """An arm of five blocks, which are meshes."""
+    pytest.importorskip("trimesh")
+    box_stl(tmp_path / "link.stl", 0.3, 30)
+    visual = '<visual><origin xyz="0 0.02 0.05" rpy="0.2 0.5 0.1"/><geometry><mesh filename="link.stl"/></geometry></visual>'
+    links = [f'<link name="l{k}">{visual}</link>' for k in range(5)]
+    joints = [
+        f'<joint name="j{k}" type="continuous"><parent link="l{k}"/><child link="l{k + 1}"/><origin xyz="0 0.3 0.4"/>'
+        f'<axis xyz="{k % 2} 0 {1 - k % 2}"/></joint>'
+        for k in range(4)
+    ]
+    (tmp_path / "arm.urdf").write_text(f'<robot name="blocks">{"".join(links + joints)}</robot>')
+    return hf.Arm.from_urdf(tmp_path / "arm.urdf")
+
+
+@pytest.mark.parametrize(("wide", "pixels"), [(1200, 1), (390, 2)])
+@pytest.mark.parametrize("name", ["panda", "planar-3r", "ur5-rail", "blocks"])
+def test_the_first_picture_has_its_corners_where_the_drawing_has_them(opened, block_arm, rng, name, wide, pixels):
+    arm = block_arm if name == "blocks" else arms.load(name)
+    q = generic_configuration(arm)
+    other = q + rng.normal(size=arm.n) / 5
+    html = scene(arm, [q, other], labels=["one", "other"], locked=[1]).to_html("arm", "An arm")
+    html = viewer.build_view_page(html, "t").replace("<script>", f"<script>{POLYGONS}", 1)
+    found = opened(html, viewport={"width": wide, "height": 700}, device_scale_factor=pixels)
+    found.wait_for_selector(".view3d-drawn")
+    canvas = found.locator("canvas").evaluate(ON_CANVAS)
+    drawing = found.locator(".view3d-stage > svg").evaluate(ON_DRAWING)
+    own = drawing[-len(canvas) :]  # the other arm is on a layer of its own
+    assert len(drawing) > len(canvas) > 4
+    for on_canvas, drawn in zip(canvas, own, strict=True):
+        assert apart(on_canvas, drawn) < 2
+        assert apart(drawn, on_canvas) < 2
+    assert np.ptp(np.concatenate(canvas), axis=0).max() > 100  # they are not all at one place
+
+
+OVERLAY = """([content, conditions]) => {
+  const view = document.querySelector(".view3d").view3d;
+  window.overlay ??= new viewerOverlay.Overlay(view);
+  view.setConditions(conditions);
+  overlay.show(content);
+  return content.trails[0].points.map(p => view.project(p));
+}"""
+STROKES = "[...document.querySelectorAll('.view3d-overlay path')].map(e => getComputedStyle(e).stroke)"
+
+
+def test_the_overlay_draws_what_a_lock_takes(opened, rng, tmp_path):
+    page_folder = Path(__file__).parents[3] / "page"
+    built = f"""import("vite").then(({{ build }}) => build({{ configFile: false, logLevel: "error", build: {{ outDir: "{tmp_path}",
+        emptyOutDir: false, lib: {{ entry: "src/viewer/overlay.ts", formats: ["iife"], name: "viewerOverlay",
+        fileName: () => "overlay.js" }} }} }}))"""
+    subprocess.run(["node", "--input-type=module", "-e", built], cwd=page_folder, check=True, capture_output=True)
+    arm = arms.load("panda")
+    q = generic_configuration(arm)
+    html = arm.show(q).to_html().replace("</body>", f"<script>{(tmp_path / 'overlay.js').read_text()}</script></body>")
+    found = opened(html, color_scheme="light")
+    painted(found)
+    tool = arm.frames(q)[-1][:3, 3]
+    directions = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    axes = {"center": tool.tolist(), "directions": directions.T.tolist()}
+    points = (tool + 0.1 * rng.normal(size=(5, 3))).tolist()
+    content = {
+        "ellipsoids": [
+            axes | {"halfAxes": [0.5, 0.4, 0.3], "style": "before"},
+            axes | {"halfAxes": [0.5, 0.4, 0.0], "style": "after"},
+        ],
+        "trails": [{"points": points, "style": style} for style in ("solid", "dotted", "dashed")],
+        "lost": [{"center": tool.tolist(), "twist": [0.6, 0, 0, 0, 0.8, 0], "label": "3 % <b>"}],
+        "pointerLine": [tool.tolist(), points[0]],
+    }
+    conditions = ["locked" if k in (1, 3) else None for k in range(7)]
+    projected = np.array(found.evaluate(OVERLAY, [content, conditions]))
+    assert found.locator(".overlay-padlock").count() == 2
+    assert found.locator(".overlay-lost text").text_content() == "3 % <b>"
+    assert found.locator(".overlay-before path").count() == 3
+    assert found.locator(".overlay-after path").count() == 4  # and its filled outline
+    dashes = "e => getComputedStyle(e).strokeDasharray"
+    assert len({found.locator(f".overlay-{style}").evaluate(dashes) for style in ("solid", "dotted", "dashed")}) == 3
+
+    def corners(selector):
+        paths = found.locator(selector).evaluate_all("all => all.map(e => e.getAttribute('d'))")
+        return [np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", path), dtype=float) for path in paths]
+
+    np.testing.assert_allclose(corners(".overlay-solid")[0], projected[:, :2], atol=0.1)
+    # A flat ellipsoid keeps one curve as it was, and two of its curves are lines.
+    before, after = corners(".overlay-before path"), corners(".overlay-after path")[1:]
+    np.testing.assert_allclose(after[2], before[2], atol=0.11)
+    for line in after[:2]:
+        size = np.linalg.svd(line - line.mean(axis=0), compute_uv=False)
+        assert size[1] < 0.03 * size[0]
+    assert apart(after[2], corners(".overlay-after .overlay-fill")[0]) < 0.5
+    # A press goes through the overlay to the picture, and other colours come with another theme.
+    box = found.locator("canvas").bounding_box()
+    middle = [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2]
+    assert found.evaluate("([x, y]) => document.elementFromPoint(x, y).tagName", middle) == "CANVAS"
+    light = found.evaluate(STROKES)
+    shades = painted(found)
+    found.emulate_media(color_scheme="dark")
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {shades[1]}")
+    assert all(a != b for a, b in zip(light, found.evaluate(STROKES), strict=True) if a != "none")
+    found.evaluate(OVERLAY, [{"trails": [{"points": points, "style": "solid"}]}, [None] * 7])
+    assert found.locator(".view3d-overlay > *").count() == 1
+
+
+def test_the_arm_page_can_drive_a_view(opened, rng):
+    arm = arms.load("panda")
+    q = generic_configuration(arm)
+    found = opened(arm.show(q).to_html())
+    before = painted(found)
+    # Points that are displaced on the picture are where a pointer put them, and as far from the eye.
+    tool = arm.frames(q)[-1][:3, 3].tolist()
+    seen, moved = np.array(
+        found.evaluate(
+            """tool => {
+              const view = document.querySelector(".view3d").view3d;
+              view.onDraw = () => { window.drawn = (window.drawn ?? 0) + 1; };
+              return [view.project(tool), view.project(view.displace(tool, 37, -21))];
+            }""",
+            tool,
+        )
+    )
+    np.testing.assert_allclose(moved - seen, [37, -21, 0], atol=1e-3)
+    ghost = q + rng.normal(size=7) / 4
+    found.evaluate("q => document.querySelector('.view3d').view3d.setGhosts([q])", ghost.tolist())
+    found.wait_for_function("window.drawn > 0")
+    assert painted(found)[1] != before[1]
+    shown = found.evaluate("document.querySelector('.view3d').view3d.configurations()")
+    np.testing.assert_allclose(shown, [q, ghost], atol=1e-6)
+    found.evaluate("document.querySelector('.view3d').view3d.setGhosts(null)")
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] === {before[1]}")
+    assert found.evaluate("getComputedStyle(document.querySelector('canvas')).touchAction") == "pan-y"
 
 
 def framed(shown, ground, ink, wide):

@@ -1,14 +1,14 @@
 """Interactive 3-D view of an arm, embedded in a page without a server, network, or other file.
 
-The script ``templates/viewer.js`` (20 kB of WebGL) is built from ``page/src/viewer`` by ``make page``. A page contains it once,
-for any number of views. Without JavaScript or WebGL, and in print, a still drawing is shown.
+The script ``templates/viewer.js`` (25 kB) is built from ``page/src/viewer`` by ``make page``. A page contains it once, for any
+number of views. A still drawing is shown until the script has drawn the same picture, without JavaScript, and in print.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from base64 import b64encode
+from base64 import b64decode, b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -22,11 +22,21 @@ from markupsafe import Markup
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.palette import BLUE, FAINT, ORANGE, SOFT
+from holdfast.interface.report.palette import BLUE, FAINT, GREEN, ORANGE, PURPLE, SOFT
 
 _TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # the same angle of view as in camera.ts
-_DRAWING_WIDTH_PX = 560
-_DRAWING_HEIGHT_PX = 400
+_DRAWING_SIDE_PX = 400  # side of the square that a view always contains; it draws beyond the square where there is room
+_RING_CORNERS = 24  # corners of each flat end of a tube, as in hulls.ts
+_BALL_CORNERS = 96
+_MESH_DIRECTIONS = 320
+_HULL_DIRECTIONS = 72  # directions on the drawing in which a hull has its corners
+_GREEN = f"var(--view3d-green, {GREEN})"  # the palette of viewer.css, and a colour for pages without it
+_BLUE = f"var(--view3d-blue, {BLUE})"
+_PURPLE = f"var(--view3d-purple, {PURPLE})"
+_ORANGE = f"var(--view3d-orange, {ORANGE})"
+_SOFT = f"var(--view3d-soft, {SOFT})"
+_FAINT = f"var(--view3d-faint, {FAINT})"
+_OUTLINE = f"var(--view3d-outline, {SOFT})"
 _VIEW_NOTE = '<p class="view3d-note view3d-once">{}</p>'
 _BODY_HTML = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
@@ -39,13 +49,11 @@ class ViewerScene:
         data: Data for the script; ``page/src/viewer/scene.ts`` describes the fields.
         frames: (A, F, K, 4, 4) poses of base, joints, and end effector of each arm, in each frame of its motion.
         notes: Sentences below the view, for example on missing meshes.
-        object_corners: Corners (V, 3) in the world, m, of each object around the arms; the still drawing shows its outline.
     """
 
     data: Mapping[str, Any]
     frames: FloatArray
     notes: tuple[str, ...] = ()
-    object_corners: tuple[FloatArray, ...] = ()
 
     def to_html(self, name: str, about: str) -> Markup:
         """Return the view as part of a page; :func:`embed_viewer_library` adds the script that makes it interactive.
@@ -215,77 +223,137 @@ def camera_axes(camera: Mapping[str, Any], up: ArrayLike) -> tuple[FloatArray, F
     return right, np.cross(back, right), back, 1.04 * camera["radius"] / float(np.sin(np.arctan(_TAN_HALF_VIEW_ANGLE)))
 
 
+def part_corners(part: Mapping[str, Any]) -> FloatArray:
+    """Return points (V, 3), m, whose convex hull is that of an encoded part, in the frame of its link, as hulls.ts does."""
+    if "mesh" in part:
+        low, side, points = (part["mesh"][key] for key in ("low", "side", "points"))
+        vertices = np.array(low) + np.frombuffer(b64decode(points), "<u2").reshape(-1, 3) * (side / 65535)
+        return np.asarray(vertices[np.unique(np.argmax(vertices @ _spread_directions(_MESH_DIRECTIONS).T, axis=0))])
+    start, end, radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
+    if part["round"]:
+        directions = _spread_directions(_BALL_CORNERS)
+    else:
+        axis = (end - start) / np.linalg.norm(end - start)
+        first = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
+        first /= np.linalg.norm(first)
+        angles = np.linspace(0, 2 * np.pi, _RING_CORNERS, endpoint=False)[:, None]
+        directions = np.cos(angles) * first + np.sin(angles) * np.cross(axis, first)
+    return np.concatenate([start + radius * directions, end + radius * directions])
+
+
+def _spread_directions(count: int) -> FloatArray:
+    """Return unit vectors (count, 3) that are spread evenly over a sphere, on a spiral by the golden angle."""
+    index = np.arange(count)
+    heights, angles = 1 - (2 * index + 1) / count, np.pi * (3 - np.sqrt(5)) * index
+    radii = np.sqrt(1 - heights**2)
+    return np.stack([radii * np.cos(angles), radii * np.sin(angles), heights], axis=1)
+
+
 def draw_scene_svg(scene: ViewerScene, about: str) -> str:
-    """Draw the initial view of the scene as SVG, with the first and the last frame of a motion."""
+    """Draw the initial view of the scene as SVG, and the last frame of a motion as a transparent arm."""
     data = scene.data
     right, upward, towards_camera, distance = camera_axes(data["camera"], data["up"])
     center = np.array(data["camera"]["center"])
 
     def project(points: ArrayLike) -> FloatArray:
         centered = np.asarray(points, dtype=np.float64) - center
-        scale = _DRAWING_HEIGHT_PX / 2 / _TAN_HALF_VIEW_ANGLE / (distance - centered @ towards_camera)
-        return np.stack(
-            [_DRAWING_WIDTH_PX / 2 + scale * (centered @ right), _DRAWING_HEIGHT_PX / 2 - scale * (centered @ upward)], axis=-1
-        )
+        scale = _DRAWING_SIDE_PX / 2 / _TAN_HALF_VIEW_ANGLE / (distance - centered @ towards_camera)
+        return _DRAWING_SIDE_PX / 2 + np.stack([scale * (centered @ right), -scale * (centered @ upward)], axis=-1)
 
-    def draw_polyline(points: ArrayLike, color: str, width: float, attributes: str = "") -> str:
-        coordinates = " ".join(f"{x:.1f},{y:.1f}" for x, y in project(points).reshape(-1, 2))
-        return f'<polyline points="{coordinates}" fill="none" stroke="{color}" stroke-width="{width}"{attributes}/>'
+    def draw_lines(points: ArrayLike, color: str, width: float, attributes: str = "") -> str:
+        """Draw a polyline (P, 3), or several (L, P, 3)."""
+        pixels = project(points)
+        lines = "".join("M" + _format_points(line) for line in pixels.reshape(-1, *pixels.shape[-2:]))
+        return f'<path d="{lines}" fill="none" stroke="{color}" stroke-width="{width}"{attributes}/>'
 
     def draw_label(text: str, point: ArrayLike) -> str:
         x, y = project(point)
-        x = np.clip(x, 3.6 * len(text), _DRAWING_WIDTH_PX - 3.6 * len(text))
-        text_style = 'font-size="13" text-anchor="middle" fill="var(--view3d-orange)"'
-        return f'<text x="{x:.1f}" y="{y - 12:.1f}" {text_style}>{escape(text)}</text>'
+        x = np.clip(x, 3.6 * len(text), _DRAWING_SIDE_PX - 3.6 * len(text))
+        return f'<text x="{x:.1f}" y="{y - 12:.1f}" font-size="13" text-anchor="middle" fill="{_ORANGE}">{escape(text)}</text>'
 
+    def draw_arm(arm: int, frame: int, opacity: float = 1.0, marks: bool = False) -> str:
+        """Draw the hulls of an arm, objects and far parts first, or the marks of failed joints."""
+        failed = {
+            joint: color for joint, (color, since) in failures.items() if not data["time"] or since <= data["time"][frame]
+        }
+        shapes = []
+        for part in data["parts"]:
+            is_shown = part.get("joint") in failed if marks else part["frame"] or not arm
+            if part.get("mark", False) is marks and is_shown:
+                pose = scene.frames[arm, frame, part["frame"]]
+                points = part_corners(part) @ pose[:3, :3].T + pose[:3, 3]
+                depth_mm = round(1000 * float(distance - (points.mean(axis=0) - center) @ towards_camera))
+                color = arm_colors[arm % 5] if arm else "rgb({},{},{})".format(*part["color"])
+                hull = _draw_hull(part, project(points), failed.get(part.get("joint"), color))
+                shapes.append(("object" not in part, -depth_mm, hull))
+        hulls = "".join(hull for *_, hull in sorted(shapes, key=lambda shape: shape[:2]))
+        return f'<g stroke="{_OUTLINE}" opacity="{opacity}">{hulls}</g>'
+
+    failures = dict.fromkeys(data["free"], (_PURPLE, 0.0))
+    failures |= {joint: (_ORANGE, since) for joint, since in enumerate(data["locked"]) if since is not None}
+    arm_colors = ("currentColor", _GREEN, _BLUE, _PURPLE, _ORANGE)
     elements = [
-        f'<svg viewBox="0 0 {_DRAWING_WIDTH_PX} {_DRAWING_HEIGHT_PX}" role="img" aria-label="{escape(about, quote=True)}" '
-        'stroke-linejoin="round" stroke-linecap="round">'
+        f'<svg viewBox="0 0 {_DRAWING_SIDE_PX} {_DRAWING_SIDE_PX}" role="img" aria-label="{escape(about, quote=True)}" '
+        'stroke-linejoin="round" stroke-linecap="round">',
+        draw_lines(_floor_lines(data), _FAINT, 1),
     ]
-    size, origin = data["size"], scene.frames[0, 0, 0, :3, 3]
-    east = right - np.array(data["up"]) * (right @ data["up"])
-    elements.append(draw_polyline([origin - 0.4 * size * east, origin + 0.4 * size * east], FAINT, 3))
-    elements += [_draw_convex_outline(project(corners)) for corners in scene.object_corners]
+    arms, last_frame = range(len(scene.frames)), scene.frames.shape[1] - 1
+    elements += [draw_arm(arm, last_frame, 0.5) for arm in reversed(arms) if last_frame]
+    elements += [draw_arm(arm, 0, 0.5) for arm in reversed(arms) if arm]
+    elements += [draw_arm(0, 0), draw_arm(0, 0, 0.75, marks=True)]
     for box in data["boxes"]:
-        lower, upper = np.array(box["low"]), np.array(box["high"])
-        corners = [np.where([index & 1, index & 2, index & 4], upper, lower) for index in range(8)]
-        pairs = [
-            (corner, neighbor) for corner in range(8) for neighbor in (corner | 1, corner | 2, corner | 4) if neighbor != corner
-        ]
-        elements += [draw_polyline([corners[corner], corners[neighbor]], SOFT, 1.2) for corner, neighbor in pairs]
+        corners = np.array(
+            [[(box["high"] if index >> axis & 1 else box["low"])[axis] for axis in range(3)] for index in range(8)]
+        )
+        edges = [(corner, corner | bit) for corner in range(8) for bit in (1, 2, 4) if not corner & bit]
+        elements.append(draw_lines(corners[edges], _SOFT, 1.4))
     if len(data["path"]) > 1:
-        elements.append(draw_polyline(data["path"], ORANGE, 1.6, ' stroke-dasharray="5 4"'))
+        elements.append(draw_lines(data["path"], _ORANGE, 1.8, ' stroke-dasharray="5 4"'))
+    if last_frame:
+        elements.append(draw_lines(scene.frames[:, :, -1, :3, 3], _BLUE, 2.4))
     for target in data["targets"]:
         x, y = project(np.reshape(target, (3, 4))[:, 3])
-        elements.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="{ORANGE}" stroke-width="2"/>')
-    locked = [locked_value is not None for locked_value in data["locked"]]
-    colors = ("#8b96a1", "#3aa384", "#4a8cc4", "#c27aa5", "#d98a52")
-    for index, motion in reversed(list(enumerate(scene.frames[..., :3, 3]))):
-        if len(motion) > 1:
-            elements += [draw_polyline(motion[0], FAINT, 7), draw_polyline(motion[:, -1], BLUE, 2)]
-        elements.append(draw_polyline(motion[-1], colors[index % 5], 9))
-        for joint, (x, y) in enumerate(project(motion[-1][1:-1])):
-            joint_color = ORANGE if locked[joint] else "#48545f"
-            elements.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="{joint_color}" stroke="#fff" stroke-width="1.5"/>')
-        x, y = project(motion[-1][-1])
-        elements.append(f'<path d="M{x:.1f} {y - 7:.1f}l7 7l-7 7l-7 -7z" fill="{ORANGE}" stroke="#fff" stroke-width="1.5"/>')
+        elements.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="{_ORANGE}" stroke-width="2"/>')
     tool = scene.frames[0, -1, -1, :3, 3]
     for lost_direction in data["lost"]:
-        half_line = 0.26 * size * np.array(lost_direction["twist"][:3])
+        half_line = 0.26 * data["size"] * np.array(lost_direction["twist"][:3])
         elements += [
-            draw_polyline([tool - half_line, tool + half_line], ORANGE, 3),
+            draw_lines([tool - half_line, tool + half_line], _ORANGE, 3),
             draw_label(lost_direction["words"], tool + half_line),
         ]
     for index, joint in enumerate(data["joints"]):
-        if locked[index]:
+        if data["locked"][index] is not None:
             elements.append(draw_label(f"{joint['name']} locked", scene.frames[0, -1, index + 1, :3, 3]))
     return "".join([*elements, "</svg>"])
 
 
-def _draw_convex_outline(points: FloatArray) -> str:
-    """Draw the outline of a convex body whose corners have the drawing coordinates (V, 2)."""
-    from scipy.spatial import ConvexHull
+def _format_points(points: FloatArray) -> str:
+    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
 
-    hull = points[ConvexHull(points).vertices]
-    coordinates = " ".join(f"{x:.1f},{y:.1f}" for x, y in hull)
-    return f'<polygon points="{coordinates}" fill="#cdb27e" fill-opacity="0.35" stroke="#8a7446" stroke-width="1"/>'
+
+def _draw_hull(part: Mapping[str, Any], points: FloatArray, color: str) -> str:
+    """Draw the convex hull of the drawing coordinates (V, 2) of a part, and the visible flat end of a tube."""
+    turn = np.linspace(0, 2 * np.pi, _HULL_DIRECTIONS, endpoint=False)
+    extremes = np.argmax(points @ [np.cos(turn), np.sin(turn)], axis=0)
+    attributes = f'fill="{color}"' + (' opacity="0.35"' if "object" in part else "")
+    hull = f'<polygon points="{_format_points(points[list(dict.fromkeys(extremes.tolist()))])}" {attributes}/>'
+    if "tube" in part and not part["round"]:
+        for ring in (points[:_RING_CORNERS][::-1], points[_RING_CORNERS:]):
+            x, y = ring.T
+            if x @ np.roll(y, -1) < y @ np.roll(x, -1):  # the ring turns as seen from outside
+                hull += f'<polygon points="{_format_points(ring)}" fill="#fff" fill-opacity="0.2"/>'
+    return hull
+
+
+def _floor_lines(data: Mapping[str, Any]) -> FloatArray:
+    """Return the ends (L, 2, 3) of the lines of the floor, m, as things.ts does."""
+    length = 2 * data["size"] / 8
+    power = 10.0 ** np.floor(np.log10(length))
+    step = power * next((factor for factor in (5, 2) if factor * power <= length), 1)
+    count = min(int(np.ceil(1.1 * data["size"] / step)), 12)
+    right, up, back, _ = camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, data["up"])
+    center = np.reshape(data["base"], (3, 4))[:, 3] - 0.004 * data["size"] * up
+    offsets, ends = step * np.arange(-count, count + 1), step * count * np.array([-1, 1])
+    return np.concatenate(
+        [center + offsets[:, None, None] * across + ends[:, None] * along for across, along in ((right, back), (back, right))]
+    )

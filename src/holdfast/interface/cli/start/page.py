@@ -18,7 +18,9 @@ from holdfast.interface.presentation.printing import make_console, print_written
 def command(
     arm: ArmArgument,
     out: Annotated[Path, "HTML file to write."],
-    q: Annotated[str | None, "First joint values in rad and m. Default: a configuration that another one improves most."] = None,
+    q: Annotated[
+        str | None, "First joint values in rad and m. Default: a configuration that another one improves most."
+    ] = None,
     degrees: DegreesOption = False,
     lock: Annotated[list[str] | None, "Joint that is locked at first, by name or number from 1. Repeatable."] = None,
     law: Annotated[

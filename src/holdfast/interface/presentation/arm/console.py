@@ -77,7 +77,7 @@ def picture(arm: Arm, about: str) -> str:
     from holdfast.interface.presentation.arm import view
     from holdfast.interface.report import viewer
 
-    return f'<div style="max-width:30em">{viewer.draw_scene_svg(view.scene(arm, meshes=False), about)}</div>'
+    return f'<div style="max-width:22em">{viewer.draw_scene_svg(view.scene(arm, meshes=False), about)}</div>'
 
 
 def save(arm: Arm, file: Path) -> Path:

@@ -134,10 +134,10 @@ def scene(
         _swept_corners(part, frames[:, :: max(len(frame_indices) // 8, 1), part.frame]) for part in body_parts if part.frame
     ]
     objects = [] if cell is None else bodies.build_cell_parts(cell, arm.base, size)
-    object_vertices = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
+    object_vertices = [part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects]
     # A floor or a wall extends far beyond the arm: only its vertices near the arm must be in the picture.
     visible_points += [item[np.linalg.norm(item - arm.base[:3, 3], axis=1) < size] for item in object_vertices]
-    parts, notes = _encode_parts(arm, size, [*body_parts, *objects])
+    parts, notes = _encode_parts(arm, size, body_parts, objects)
     notes += [mesh_note[:1].upper() + mesh_note[1:] + "."] if mesh_note else []
     data = {
         "up": round_to_seven_digits(up),
@@ -177,7 +177,7 @@ def scene(
         "sliders": joints and not moving,
         "camera": _place_camera(arm, up, np.vstack(visible_points), frames, 0.45 * size),
     }
-    return ViewerScene(data, frames, tuple(notes), object_vertices)
+    return ViewerScene(data, frames, tuple(notes))
 
 
 def choose_views(arm: Arm, points: FloatArray) -> list[View]:
@@ -279,9 +279,11 @@ def _swept_corners(part: MeshPart, poses: FloatArray) -> FloatArray:
     return np.asarray(corners @ poses[..., :3, :3].swapaxes(-1, -2) + poses[..., None, :3, 3]).reshape(-1, 3)
 
 
-def _encode_parts(arm: Arm, size: float, body: Sequence[MeshPart]) -> tuple[list[dict[str, Any]], list[str]]:
-    """Encode the meshes of the arm for the view, and collect the notes about them."""
-    notes, sticks, parts = [], build_stick_parts(arm, size), body
+def _encode_parts(
+    arm: Arm, size: float, body: Sequence[MeshPart], objects: Sequence[MeshPart]
+) -> tuple[list[dict[str, Any]], list[str]]:
+    """Encode the meshes of the arm and of the objects around it for the view, and collect the notes about them."""
+    notes, sticks, parts = [], build_stick_parts(arm, size), [*body, *objects]
     triangle_count = sum(len(mesh_part.faces) for mesh_part in parts if mesh_part.tube is None)
     if triangle_count > MAX_VIEW_TRIANGLES:
         notes.append(
@@ -289,9 +291,9 @@ def _encode_parts(arm: Arm, size: float, body: Sequence[MeshPart]) -> tuple[list
             f"the size of the page."
         )
     encoded = []
-    for part in parts:
+    for index, part in enumerate(parts):
         max_triangles = max(MAX_VIEW_TRIANGLES * len(part.faces) // max(triangle_count, MAX_VIEW_TRIANGLES), 40)
-        encoded.append(_encode_part(part, max_triangles))
+        encoded.append(_encode_part(part, max_triangles) | ({"object": True} if index >= len(body) else {}))
     # Meshes hide the joints, so locked joints are drawn through the meshes.
     hidden = {mesh_part.joint for mesh_part in sticks if mesh_part.joint is not None} - {mesh_part.joint for mesh_part in parts}
     return encoded + [_encode_part(part, MAX_VIEW_TRIANGLES) | {"mark": True} for part in sticks if part.joint in hidden], notes

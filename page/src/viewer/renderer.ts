@@ -1,0 +1,60 @@
+/** Choice between WebGL, for scenes with surroundings, and hulls in two dimensions, which need no graphics card. */
+
+import { HullRenderer } from "./hulls";
+import { Painter } from "./painter";
+import type { Palette } from "./palette";
+import type { Part, Pose, Scene, Vector } from "./scene";
+
+export interface Picture {
+  onto: CanvasRenderingContext2D;
+  /** Projection of the camera, column by column. */
+  matrix: Float32Array;
+  eye: Vector;
+  up: Vector;
+  right: Vector;
+  palette: Palette;
+}
+
+export interface Body {
+  part: Part;
+  pose: Pose;
+  /** Each channel from 0 to 1. */
+  color: Vector;
+}
+
+/** One colour, `width` in pixels; two points a segment. */
+export interface Lines {
+  points: Vector[];
+  color: Vector;
+  width: number;
+  opacity?: number;
+}
+
+export interface Renderer {
+  /** Whether near shapes hide those behind them in any order; otherwise a shape covers those before it. */
+  readonly hidesFarther: boolean;
+  begin(picture: Picture): void;
+  solids(bodies: Body[], opacity?: number): void;
+  lines(lines: Lines): void;
+  dots(points: Vector[], colors: Vector[], width: number): void;
+  /** Subsequent shapes cover all others while this is on. */
+  over(on: boolean): void;
+  finish(): void;
+}
+
+const hulls = new HullRenderer();
+let painter: Painter | null = null;
+let withoutCard = false;
+
+/** The renderer of a scene. A WebGL renderer is created again after its context is lost. */
+export function chooseRenderer({ objects, points, boxes }: Scene): Renderer {
+  if (withoutCard || !(objects.length || points.length || boxes.length)) return hulls;
+  try {
+    if (!painter || painter.lost) painter = new Painter();
+    if (!painter.software) return painter;
+  } catch {
+    painter = null;
+  }
+  withoutCard = true;
+  return hulls;
+}
