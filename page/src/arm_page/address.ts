@@ -10,7 +10,7 @@ export interface PageState {
   arm: string;
   step: StepName;
   /** Joint values, rad or m. */
-  q: number[];
+  q: ArrayLike<number>;
   conditions: Condition[];
   /** Time from the power cut until the brakes close, ms. */
   brakeDelay: number;
@@ -22,7 +22,7 @@ export function writeAddress(state: PageState): string {
   const fields: Record<string, string> = {
     arm: state.arm,
     step: state.step,
-    q: state.q.map((value) => String(Number(value.toFixed(6)))).join(","),
+    q: Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(","),
     locked: joints("locked"),
     free: joints("free"),
     brake: state.step === "power" ? String(state.brakeDelay) : "",
@@ -33,7 +33,7 @@ export function writeAddress(state: PageState): string {
 /** Read a state; fields that are missing or do not fit the arm keep their defaults. */
 export function readAddress(fragment: string, data: ArmPageData, defaults: PageState): PageState {
   const fields = new URLSearchParams(fragment.replace(/^#/, ""));
-  const state = { ...defaults, q: [...defaults.q], conditions: [...defaults.conditions] };
+  const state = { ...defaults, conditions: [...defaults.conditions] };
   if (fields.get("arm") !== null && fields.get("arm") !== data.name) return state;
   const step = STEPS.find((name) => name === fields.get("step"));
   if (step) state.step = step;

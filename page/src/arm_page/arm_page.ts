@@ -23,7 +23,7 @@ export class ArmPage {
   readonly controls: HTMLElement;
   readonly state: PageState;
   readonly reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  fractions = new Float64Array();
+  fractions: Float64Array = new Float64Array();
   worst = 0;
   touched = false;
   private readonly view: View;
@@ -62,6 +62,7 @@ export class ArmPage {
     });
     this.steps = Object.fromEntries(STEPS.map((name) => [name, new STEP_CLASSES[name](this)])) as Record<StepName, Step>;
     this.addStepButtons();
+    (this.find(".view3d-hint") as HTMLElement).textContent = data.texts.hint;
     this.view.onDraw = () => this.afterPicture();
     this.measure();
     this.openStep(this.state.step);
@@ -96,7 +97,7 @@ export class ArmPage {
   }
 
   setConfiguration(q: ArrayLike<number>): void {
-    this.state.q = q as number[];
+    this.state.q = q;
     this.target = null;
     this.touched = true;
     this.update();

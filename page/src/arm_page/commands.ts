@@ -11,7 +11,7 @@ export interface Reproduction {
 
 /** Return the command and the Python lines for the numbers of a state; `worst` is the joint with the worst bar, from 0. */
 export function reproduce(data: ArmPageData, state: PageState, worst: number): Reproduction {
-  const q = state.q.map((value) => String(Number(value.toFixed(6)))).join(", ");
+  const q = Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(", ");
   const numbers = `"${q.replace(/ /g, "")}"`;
   const failed = state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
   const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));

@@ -21,7 +21,7 @@ export interface Curve {
   alternative: string;
 }
 
-const [WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM] = [360, 118, 44, 8, 8, 24];
+const [WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM] = [360, 130, 48, 20, 8, 24];
 
 /** Draw a curve with the marked sample as a circle. */
 export function drawCurve(curve: Curve): SVGElement {
@@ -48,7 +48,7 @@ export function drawCurve(curve: Curve): SVGElement {
     createSvg("text", { x: end, y: HEIGHT - 8, "text-anchor": "end" }, curve.xEnds[1]),
     createSvg("text", { x: LEFT - 4, y: TOP + 9, "text-anchor": "end" }, curve.yTop),
     createSvg("text", { x: LEFT - 4, y: floor, "text-anchor": "end" }, "0"),
-    createSvg("text", { x: LEFT + 4, y: TOP + 6 }, curve.yLabel),
+    createSvg("text", { x: LEFT, y: TOP - 8 }, curve.yLabel),
   );
   return svg;
 }

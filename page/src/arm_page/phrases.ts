@@ -8,14 +8,14 @@ export function fillText(text: string, values: Record<string, string | number> =
 /** A fraction as a percentage with one decimal place below 10 %. */
 export function formatPercent(fraction: number): string {
   const percent = 100 * fraction;
-  if (percent >= 9.95) return `${percent.toFixed(0)} %`;
-  if (percent >= 0.05) return `${percent.toFixed(1)} %`;
-  return percent > 1e-7 ? "under 0.1 %" : "0 %";
+  if (percent >= 9.95) return `${percent.toFixed(0)}\u00a0%`;
+  if (percent >= 0.05) return `${percent.toFixed(1)}\u00a0%`;
+  return percent > 1e-7 ? "under\u00a00.1\u00a0%" : "0\u00a0%";
 }
 
 /** A length in metres as centimetres, or as millimetres below 10 cm. */
 export function formatLength(metres: number): string {
-  return metres < 0.1 ? `${(1000 * metres).toFixed(0)} mm` : `${(100 * metres).toFixed(0)} cm`;
+  return metres < 0.1 ? `${(1000 * metres).toFixed(0)}\u00a0mm` : `${(100 * metres).toFixed(0)}\u00a0cm`;
 }
 
 export const formatAngle = (radians: number): string => `${((180 * radians) / Math.PI).toFixed(0)}°`;

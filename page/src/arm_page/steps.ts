@@ -2,6 +2,7 @@
 
 import { createSvg, h } from "../dom";
 import type { OverlayContent } from "../viewer/overlay";
+import type { Vector } from "../viewer/scene";
 import type { Condition, StepName } from "./address";
 import type { ArmPage } from "./arm_page";
 import { simulateControl, type ControlledMotion } from "./closed_loop";
@@ -14,6 +15,7 @@ import { traceSelfMotion, type SelfMotion } from "./self_motion";
 const MAX_BRAKE_DELAY_MS = 500;
 const BRAKE_DELAY_STEP_MS = 10;
 const SLIDE_SPEED_SAMPLES_PER_PICTURE = 2; // on the way to the best configuration
+const STRUCTURAL_ZERO = 1e-6; // relative manipulability below which a joint has no substitute
 const PLAY_SPEED = 2; // simulated seconds per second
 export type TrailStyle = "solid" | "dotted" | "dashed";
 const TRAIL_STYLES: TrailStyle[] = ["solid", "dotted", "dashed"];
@@ -100,9 +102,10 @@ export class LockStep extends Step {
     const { failed, state } = this.page;
     if (failed.length === 0) return [this.text("lock_none"), this.text("healthy_detail")];
     const conditions = new Set(failed.map((joint) => state.conditions[joint]));
-    const condition = conditions.size > 1 ? this.text("failed") : this.text(`is_${[...conditions][0]}`);
-    const share = formatPercent(this.lost[0].remaining);
-    return [this.text("lock", { joints: this.page.failedNames(), condition, share }), this.text("lock_detail")];
+    const verb = failed.length > 1 ? "are" : "is";
+    const condition = this.text(conditions.size > 1 ? "have_failed" : `${verb}_${[...conditions][0]}`);
+    const values = { joints: capitalise(this.page.failedNames()), condition, share: formatPercent(this.lost[0].remaining) };
+    return [this.text("lock", values), this.text("lock_detail")];
   }
 
   override overlay(): OverlayContent {
@@ -132,8 +135,7 @@ export class PrepareStep extends Step {
     this.page.repairAll();
     this.motion = null;
     const best = this.button("go_to_best", () => this.goToBest());
-    this.page.controls.replaceChildren(this.curve, h("label", {}, h("span", {}, this.text("self_motion")), this.input),
-      h("div", { class: "step-row" }, best));
+    this.page.controls.replaceChildren(this.curve, this.input, h("div", { class: "step-row" }, best));
   }
 
   update(): void {
@@ -175,7 +177,9 @@ export class PrepareStep extends Step {
 
   sentences(): [string, string] {
     const { data, fractions, worst, arm } = this.page;
-    if (this.motion === null || this.motion.worst.length < 2) return [this.text("fixed"), this.text("fixed_detail")];
+    if (this.motion === null || this.motion.worst[this.motion.best] < STRUCTURAL_ZERO) {
+      return [this.text("fixed"), this.text("fixed_detail", { joint: this.page.label(worst) })];
+    }
     const best = formatPercent(this.motion.worst[this.motion.best]);
     return [
       this.text("prepare", { share: formatPercent(fractions[worst]) }),
@@ -205,6 +209,8 @@ export class UndetectedStep extends Step {
   private input = this.slider("time", 1, 0.02, 0, (time) => this.showTime(time));
   private playButton = this.button("play", () => this.play());
   private readout = h("output");
+  private deviations: HTMLElement[] = [];
+  private line: [Vector, Vector] | null = null;
 
   enter(): void {
     if (this.page.failed.length !== 1) {
@@ -214,12 +220,13 @@ export class UndetectedStep extends Step {
     const key = (index: number, name: string): Element => {
       const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
       svg.append(createSvg("path", { class: `overlay-trail overlay-${TRAIL_STYLES[index]}`, d: "M1 5H33" }));
-      return h("span", { class: "law-key" }, svg as unknown as Node, name);
+      this.deviations[index] = h("span");
+      return h("span", { class: "law-key" }, svg as unknown as Node, name, this.deviations[index]);
     };
     const laws = this.page.data.story?.laws ?? [];
     const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
     this.page.controls.replaceChildren(
-      h("div", { class: "step-row" }, ...names.map((name, k) => key(k, name))),
+      ...names.map((name, k) => h("div", { class: "step-row" }, key(k, name))),
       h("label", {}, this.playButton, this.input, this.readout),
     );
     this.rest();
@@ -235,12 +242,16 @@ export class UndetectedStep extends Step {
     const self = traceSelfMotion(arm, state.q);
     const prepared = self.configurations[self.best];
     const [tool, first] = [arm.toolPosition(state.q), arm.toolPosition(story.start)];
-    const target = tool.map((value, k) => value + story.target[k] - first[k]) as typeof tool;
+    const target = tool.map((value, k) => value + story.target[k] - first[k]) as Vector;
+    this.line = [tool, target];
     const starts = [state.q, state.q, prepared];
     const laws = [story.laws[0], story.laws[1], story.laws[0]];
     this.motions = starts.map((start, k) =>
       simulateControl(arm, start, target, failed, { law: laws[k].slug, gain: story.gain, speed: story.speed }),
     );
+    this.motions.forEach(({ deviation }, k) => {
+      this.deviations[k].textContent = this.text("deviation", { deviation: formatLength(deviation) });
+    });
     this.input.max = String(this.duration);
     this.showTime(this.duration);
     if (!this.page.reducedMotion) this.play();
@@ -256,13 +267,10 @@ export class UndetectedStep extends Step {
 
   sentences(): [string, string] {
     const story = this.page.data.story;
-    const [first, second, prepared] = this.motions.map((motion) => formatLength(motion.deviation));
     if (!story) return ["", ""];
-    const medians = story.deviations.map(formatLength);
-    const names = { joint: capitalise(this.page.failedNames()) };
-    const one = this.text("undetected_one", { first, second, prepared });
-    const many = { count: story.motions, first: medians[0], second: medians[1], prepared: medians[2] };
-    return [this.text("undetected", names), `${one} ${this.text("undetected_detail", many)}`];
+    const [first, second, prepared] = story.deviations.map(formatLength);
+    const detail = this.text(story.motions ? "undetected_detail" : "undetected_given", { count: story.motions, first, second, prepared });
+    return [this.text("undetected", { joint: capitalise(this.page.failedNames()) }), detail];
   }
 
   override overlay(): OverlayContent {
@@ -270,7 +278,7 @@ export class UndetectedStep extends Step {
       points: motion.trail.slice(0, this.sample(k) + 1),
       style: TRAIL_STYLES[k],
     }));
-    return { trails: trails.filter((trail) => trail.points.length > 1) };
+    return { trails: trails.filter((trail) => trail.points.length > 1), pointerLine: this.line ?? undefined };
   }
 
   private get duration(): number {
@@ -387,8 +395,9 @@ export class PowerStep extends Step {
     const { time, drop, configurations } = this.fall as Fall;
     const delay = this.page.state.brakeDelay;
     this.ghosts = [configurations[this.sample]];
+    this.input.max = String(Math.floor((1000 * time[time.length - 1]) / BRAKE_DELAY_STEP_MS) * BRAKE_DELAY_STEP_MS);
     this.input.value = String(delay);
-    this.readout.textContent = `${delay} ms`;
+    this.readout.textContent = `${this.input.value} ms`;
     this.input.setAttribute("aria-valuetext", `${delay} ms: ${formatLength(this.drop)}`);
     const height = Math.max(...drop.map(Math.abs), 0.01);
     this.curve.replaceChildren(

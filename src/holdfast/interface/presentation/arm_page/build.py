@@ -94,7 +94,7 @@ def build_page(
         f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
         "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
     )
-    title = f"{arm.title}: which joint matters?"
+    title = f"{arm.name}: which joint matters?"
     return Html(
         '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
@@ -176,8 +176,8 @@ def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, text
     buttons = [
         f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
-        f'<span class="bar-value">{format_percent(fraction)}'
-        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span></span></button>'
+        f'<span class="bar-value">{format_percent(fraction)}</span>'
+        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span></button>'
         for k, (label, fraction) in enumerate(zip(labels, fractions, strict=True))
     ]
     note = texts["bound"].format(count=len(labels), bound=format_percent(bound))

@@ -22,10 +22,10 @@ def format_percent(fraction: float) -> str:
     """Return a fraction as a percentage with one decimal place below 10 %."""
     percent = 100 * fraction
     if percent >= 9.95:
-        return f"{percent:.0f} %"
+        return f"{percent:.0f}\N{NO-BREAK SPACE}%"
     if percent >= 0.05:
-        return f"{percent:.1f} %"
-    return "under 0.1 %" if percent > 1e-7 else "0 %"
+        return f"{percent:.1f}\N{NO-BREAK SPACE}%"
+    return "under 0.1 %".replace(" ", "\N{NO-BREAK SPACE}") if percent > 1e-7 else "0\N{NO-BREAK SPACE}%"
 
 
 def label_joints(arm: Arm) -> list[str]:

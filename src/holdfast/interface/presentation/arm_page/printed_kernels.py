@@ -10,6 +10,7 @@ import casadi as ca
 from holdfast.control.falls.passive_arm import PassiveArm
 from holdfast.control.laws.law import by_name
 from holdfast.kernels.disk_cache import cached_json
+from holdfast.kernels.javascript.functions import define_functions
 from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.linalg import factor_householder
 from holdfast.kernels.program import SX, Program
@@ -42,15 +43,17 @@ def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
         "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
         "accelerations": _accelerations_program(arm, q),
     }
-    lines, members = ["(()=>{"], []
+    lines: list[str] = []
+    members = []
     for name, program in programs.items():
-        lines.append("" if program is None else write_javascript(program, name))
+        lines.append("" if program is None else write_javascript(program, name, with_functions=False))
         members.append(f"{name}:null" if program is None else name)
     members_of_laws = []
     for number, label in enumerate(laws):
-        lines.append(write_javascript(_law_program(arm, label, q), f"law{number}"))
+        lines.append(_write_law(arm, label, q, f"law{number}"))
         members_of_laws.append(f"{json.dumps(label)}:law{number}")
-    return "".join([*lines, f"return {{{','.join(members)},laws:{{{','.join(members_of_laws)}}}}};\n}})()"])
+    body = "".join(lines)
+    return f"(()=>{{{define_functions(body)}{body}return {{{','.join(members)},laws:{{{','.join(members_of_laws)}}}}};\n}})()"
 
 
 def _null_space_basis(arm: Arm, task: Task, q: SX) -> SX:
@@ -73,11 +76,12 @@ def _inverse_kinematics_program(arm: Arm, task: Task, q: SX) -> Program:
     return Program("inverse kinematics step", [q, target, free], [next_q, ca.sqrt(residual)])
 
 
-def _law_program(arm: Arm, label: str, q: SX) -> Program:
-    """Return ``q, velocity of the tool point in the world (3,) -> joint rates``."""
+def _write_law(arm: Arm, label: str, q: SX, name: str) -> str:
+    """Write ``q, velocity of the tool point in the world (3,) -> joint rates`` in JavaScript."""
     velocity = ca.SX.sym("velocity", 3)
     law = by_name(label, arm, task=default_path_task(arm, oriented=False))
-    return Program(law.name, [q, velocity], [law.rates(q, ca.sparsify(ca.SX(ca.DM(law.task.rows[:, :3]))) @ velocity)])
+    task_velocity = ca.sparsify(ca.SX(ca.DM(law.task.rows[:, :3]))) @ velocity
+    return law.write_rates_in_javascript(name, q, task_velocity, [q, velocity], with_functions=False)
 
 
 def _accelerations_program(arm: Arm, q: SX) -> Program | None:
