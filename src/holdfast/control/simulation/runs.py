@@ -278,7 +278,7 @@ class Runs(Result):
             InputError: There is no such run, or it had bad input.
         """
         rows = self.law.task.rows[:, :3]
-        components = self.path(k, _LINE_SAMPLES).position @ rows.T
+        components = self.path(k, _LINE_SAMPLES).x @ rows.T
         is_pose = self.target.shape[-2:] == (4, 4)
         targets = self.target.reshape(-1, 4, 4)[:, :3, 3] @ rows.T if is_pose else np.atleast_2d(self.target)
         target = targets[min(k, len(targets) - 1)]
