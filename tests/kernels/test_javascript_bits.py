@@ -124,6 +124,37 @@ def test_every_function_has_the_bits_of_compiled_code(name, rng):
     assert_same_bits(found, compiled_rows(program, rows))
 
 
+OPERATIONS = [
+    lambda a, b: a + b,
+    lambda a, b: a - b,
+    lambda a, b: a * b,
+    lambda a, b: a / b,
+    lambda a, b: 1 / a + a * a,
+    lambda a, b: ca.sqrt(ca.fabs(a)) - ca.hypot(a, b),
+    lambda a, b: ca.fmin(a, -b) + 2 * a,
+    lambda a, b: ca.fmax(a, b) * ca.sign(b),
+    lambda a, b: ca.if_else(ca.logic_and(a < b, ca.logic_not(b <= 0)), a, -b),
+    lambda a, b: ca.if_else(ca.logic_or(a == b, a != 1), b, 0),
+    lambda a, b: ca.if_else(a, a < b, b) + (a != b),
+    *(lambda a, b, function=function, count=count: function(*[a, b][:count]) for count, function in FUNCTIONS.values()),
+]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_expressions_have_the_bits_of_compiled_code(seed, rng):
+    """Also where a part is NaN or infinite and a condition depends on it."""
+    x = ca.SX.sym("x", 4)
+    values = ca.vertsplit(x)
+    for _ in range(80 * (seed + 1)):
+        a, b = (values[k] for k in rng.integers(max(0, len(values) - 60), len(values), 2))
+        values.append(OPERATIONS[rng.integers(len(OPERATIONS))](a, b if rng.random() < 0.9 else rng.choice([0.0, 1.0, -2.0])))
+    program = Program("random", [x], [ca.vertcat(*values[-60:])])
+    rows = np.vstack([rng.normal(size=(400, 4)), rng.integers(-2, 3, (400, 4))]).astype(float)
+    found = browser.rows(write_javascript(program, "f"), "f", rows, program.n_out)
+    assert np.isfinite(found).mean() > 0.1
+    assert_same_bits(found, compiled_rows(program, rows))
+
+
 def test_a_large_sum_of_inputs_is_no_nan():
     x = ca.SX.sym("x", 2)
     program = Program("large", [x], [x[0] * 1e-300])
