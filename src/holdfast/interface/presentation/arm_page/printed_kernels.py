@@ -36,16 +36,9 @@ def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinver
 @cached_json
 def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
     q = kinematics.joint_symbols(arm)
-    programs = {
-        "frames": Program("frames", [q], [kinematics.body_poses(arm, q)]),
-        "jacobian": Program("Jacobian", [q], [ca.densify(kinematics.world_jacobian(arm, q))]),
-        "nullSpace": Program("null space", [q], [_null_space_basis(arm, task, q)]),
-        "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
-        "accelerations": _accelerations_program(arm, q),
-    }
     lines: list[str] = []
     members = []
-    for name, program in programs.items():
+    for name, program in make_page_programs(arm, task, q).items():
         lines.append("" if program is None else write_javascript(program, name, with_functions=False))
         members.append(f"{name}:null" if program is None else name)
     members_of_laws = []
@@ -54,6 +47,17 @@ def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
         members_of_laws.append(f"{json.dumps(label)}:law{number}")
     body = "".join(lines)
     return f"(()=>{{{define_functions(body)}{body}return {{{','.join(members)},laws:{{{','.join(members_of_laws)}}}}};\n}})()"
+
+
+def make_page_programs(arm: Arm, task: Task, q: SX) -> dict[str, Program | None]:
+    """Return the programs of the kernels by name, without the control laws, for joint symbols ``q`` (n,)."""
+    return {
+        "frames": Program("frames", [q], [kinematics.body_poses(arm, q)]),
+        "jacobian": Program("Jacobian", [q], [ca.densify(kinematics.world_jacobian(arm, q))]),
+        "nullSpace": Program("null space", [q], [_null_space_basis(arm, task, q)]),
+        "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
+        "accelerations": _accelerations_program(arm, q),
+    }
 
 
 def _null_space_basis(arm: Arm, task: Task, q: SX) -> SX:
