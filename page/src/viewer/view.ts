@@ -169,9 +169,8 @@ export class View {
     const palette = choosePalette(this.box);
     const matrix = camera.matrix(width / height);
     const picture: Picture = { onto, matrix, eye: camera.eye, up: scene.up, right: camera.axes().right, palette };
-    const renderer = chooseRenderer(scene);
+    const renderer = chooseRenderer(scene, picture);
     const poses = this.configurations().map(this.solve);
-    renderer.begin(picture);
     renderer.lines({ points: this.floor, color: palette.faint, width: ratio });
     const paintGhosts = (): void => {
       for (let k = poses.length - 1; k > 0; k--) renderer.solids(this.bodies(k, poses[k], palette), 0.5);

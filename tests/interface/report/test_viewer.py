@@ -325,7 +325,7 @@ const own = CanvasRenderingContext2D.prototype, { clearRect, beginPath, lineTo, 
 own.clearRect = function (...rest) { this.polygons = []; return clearRect.apply(this, rest); };
 own.beginPath = function () { this.path = []; return beginPath.call(this); };
 own.lineTo = function (x, y) { this.path.push([x, y]); return lineTo.call(this, x, y); };
-own.closePath = function () { this.polygons.push(this.path); return closePath.call(this); };
+own.closePath = function () { (this.polygons ??= []).push(this.path); return closePath.call(this); };
 """
 ON_CANVAS = """canvas => {
   const { left, top, width } = canvas.getBoundingClientRect(), s = width / canvas.width;
@@ -394,13 +394,17 @@ STROKES = "[...document.querySelectorAll('.view3d-overlay path')].map(e => getCo
 
 def test_the_overlay_draws_what_a_lock_takes(opened, rng, tmp_path):
     page_folder = Path(__file__).parents[3] / "page"
-    built = f"""import("vite").then(({{ build }}) => build({{ configFile: false, logLevel: "error", build: {{ outDir: "{tmp_path}",
-        emptyOutDir: false, lib: {{ entry: "src/viewer/overlay.ts", formats: ["iife"], name: "viewerOverlay",
-        fileName: () => "overlay.js" }} }} }}))"""
+    library = {"entry": "src/viewer/overlay.ts", "formats": ["iife"], "name": "viewerOverlay", "fileName": "overlay"}
+    options = {
+        "configFile": False,
+        "logLevel": "error",
+        "build": {"outDir": str(tmp_path), "emptyOutDir": False, "lib": library},
+    }
+    built = f'import("vite").then(({{ build }}) => build({json.dumps(options)}))'
     subprocess.run(["node", "--input-type=module", "-e", built], cwd=page_folder, check=True, capture_output=True)
     arm = arms.load("panda")
     q = generic_configuration(arm)
-    html = arm.show(q).to_html().replace("</body>", f"<script>{(tmp_path / 'overlay.js').read_text()}</script></body>")
+    html = arm.show(q).to_html().replace("</body>", f"<script>{next(tmp_path.glob('overlay*')).read_text()}</script></body>")
     found = opened(html, color_scheme="light")
     painted(found)
     tool = arm.frames(q)[-1][:3, 3]
