@@ -43,6 +43,7 @@ export type Project = (point: Vector) => number[];
 
 const ELLIPSOID_SCALE_S = 0.4; // metres on the picture for a half axis of 1 m/s
 const LOST_LENGTH = 0.26; // of the stretched arm
+const LETTER_PX = 8.5; // width of a letter of a label, at most on average
 const CURVE_CORNERS = 48;
 const SURFACE = spreadDirections(160);
 
@@ -74,12 +75,13 @@ export function drawEllipsoid(locate: Project, { center, halfAxes, directions, s
   return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: trace(outline, true) }), ...paths);
 }
 
-/** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label at the end. */
-export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number): SVGElement {
+/** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label within the width in pixels. */
+export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
   const { lines, end } = mark({ twist, words: label }, center, length);
   const segments = lines.flatMap((start, k) => (k % 2 ? [] : [trace([locate(start), locate(lines[k + 1])])]));
   const [x, y] = locate(end);
-  const text = createSvg("text", { class: "overlay-label", x: (x + 10).toFixed(1), y: (y - 6).toFixed(1) }, label);
+  const left = Math.min(x + 10, width - LETTER_PX * label.length);
+  const text = createSvg("text", { class: "overlay-label", x: left.toFixed(1), y: (y - 6).toFixed(1) }, label);
   return group("lost", createSvg("path", { d: segments.join("") }), text);
 }
 
@@ -113,7 +115,7 @@ export class Overlay {
     this.element.replaceChildren(
       ...ellipsoids.map((ellipsoid) => drawEllipsoid(locate, ellipsoid)),
       ...trails.map((trail) => drawTrail(locate, trail)),
-      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size)),
+      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size, clientWidth)),
       ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
       ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: trace(pointerLine.map(locate)) })] : []),
     );
