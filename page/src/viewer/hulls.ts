@@ -76,7 +76,7 @@ function clip(matrix: Float32Array, start: Vector, end: Vector): Vector[] {
   return [a < 0 ? cut : start, b < 0 ? cut : end];
 }
 
-const known = new WeakMap<Part, Vector[]>();
+const cornersByPart = new WeakMap<Part, Vector[]>();
 let layer: CanvasRenderingContext2D | null = null;
 
 /** An empty canvas, the same one for all pictures. */
@@ -100,8 +100,8 @@ export class HullRenderer implements Renderer {
   /** Corners of a body in pixels, and their mean distance before the eye, m; none if it extends behind the eye. */
   private place({ part, pose }: Body): { points: Point[]; depth: number } | null {
     const { matrix: m, onto } = this.picture;
-    let local = known.get(part);
-    if (!local) known.set(part, (local = corners(part)));
+    let local = cornersByPart.get(part);
+    if (!local) cornersByPart.set(part, (local = corners(part)));
     const row = (i: number): number[] =>
       [0, 1, 2, 3].map((k) => m[i] * pose[k] + m[4 + i] * pose[4 + k] + m[8 + i] * pose[8 + k] + (k === 3 ? m[12 + i] : 0));
     const [x, y, w] = [row(0), row(1), row(3)];
@@ -123,14 +123,14 @@ export class HullRenderer implements Renderer {
   solids(bodies: Body[], opacity = 1): void {
     const { onto, palette } = this.picture;
     const { width, height, clientWidth } = onto.canvas;
-    const seen = bodies.flatMap((body) => {
+    const drawn = bodies.flatMap((body) => {
       const placed = this.place(body);
-      return placed ? [{ ...body, ...placed, back: Number(body.part.object ?? 0) }] : [];
+      return placed ? [{ ...body, ...placed, isObject: body.part.object === true }] : [];
     });
     // Of parts at the same depth, to a millimetre, later ones cover earlier ones, as in the still drawing.
-    seen.sort((a, b) => b.back - a.back || Math.round(1000 * b.depth) - Math.round(1000 * a.depth));
+    drawn.sort((a, b) => Number(b.isObject) - Number(a.isObject) || Math.round(1000 * b.depth) - Math.round(1000 * a.depth));
     // Parts of a transparent arm do not show through each other, because it is drawn on a layer.
-    const target = opacity < 1 && seen.length > 1 ? clearLayer(width, height) : onto;
+    const target = opacity < 1 && drawn.length > 1 ? clearLayer(width, height) : onto;
     target.lineJoin = "round";
     target.lineWidth = (OUTLINE_PX * width) / clientWidth;
     target.strokeStyle = css(palette.outline);
@@ -142,8 +142,8 @@ export class HullRenderer implements Renderer {
       target.fill();
       target.stroke();
     };
-    for (const { part, points, color, back } of seen) {
-      target.globalAlpha = (back ? OBJECT_OPACITY : 1) * (target === onto ? opacity : 1);
+    for (const { part, points, color, isObject } of drawn) {
+      target.globalAlpha = (isObject ? OBJECT_OPACITY : 1) * (target === onto ? opacity : 1);
       trace(hull(points), color);
       if (!part.tube) continue;
       // The end of a tube that is seen from outside runs round the other way.

@@ -47,7 +47,7 @@ const LETTER_PX = 8.5; // width of a letter of a label, at most on average
 const CURVE_CORNERS = 48;
 const SURFACE = spreadDirections(160);
 
-function trace(points: number[][], closed = false): string {
+function formatPath(points: number[][], closed = false): string {
   return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}${closed ? "Z" : ""}`;
 }
 
@@ -69,16 +69,16 @@ export function drawEllipsoid(locate: Project, { center, halfAxes, directions, s
       return placeShare(share);
     }),
   );
-  const paths = curves.map((curve) => createSvg("path", { d: trace(curve, true) }));
+  const paths = curves.map((curve) => createSvg("path", { d: formatPath(curve, true) }));
   if (style === "before") return group("ellipsoid overlay-before", ...paths);
   const outline = hull([...curves.flat(), ...SURFACE.map(placeShare)]);
-  return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: trace(outline, true) }), ...paths);
+  return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: formatPath(outline, true) }), ...paths);
 }
 
 /** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label within the width in pixels. */
 export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
   const { lines, end } = mark({ twist, words: label }, center, length);
-  const segments = lines.flatMap((start, k) => (k % 2 ? [] : [trace([locate(start), locate(lines[k + 1])])]));
+  const segments = lines.flatMap((start, k) => (k % 2 ? [] : [formatPath([locate(start), locate(lines[k + 1])])]));
   const [x, y] = locate(end);
   const left = Math.min(x + 10, width - LETTER_PX * label.length);
   const text = createSvg("text", { class: "overlay-label", x: left.toFixed(1), y: (y - 6).toFixed(1) }, label);
@@ -86,7 +86,7 @@ export function drawLostMotion(locate: Project, { center, twist, label }: LostMo
 }
 
 export function drawTrail(locate: Project, { points, style }: Trail): SVGElement {
-  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: trace(points.map(locate)) });
+  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: formatPath(points.map(locate)) });
 }
 
 export function drawPadlock(locate: Project, joint: Vector): SVGElement {
@@ -117,7 +117,7 @@ export class Overlay {
       ...trails.map((trail) => drawTrail(locate, trail)),
       ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size, clientWidth)),
       ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
-      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: trace(pointerLine.map(locate)) })] : []),
+      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: formatPath(pointerLine.map(locate)) })] : []),
     );
   }
 }
