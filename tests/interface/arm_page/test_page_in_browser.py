@@ -8,7 +8,6 @@ import re
 import numpy as np
 import pytest
 import yaml
-from wellformed import check
 
 import axe
 import chromium
@@ -16,6 +15,7 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.core.errors import HoldfastError
 from holdfast.interface.report.viewer import read_template
+from wellformed import check
 
 STEPS = ("healthy", "lock", "prepare", "undetected", "power")
 LAST = "document.querySelector('.arm').armPage"

@@ -19,8 +19,8 @@ from holdfast.model.arm.postures import generic_configuration
 from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.collision.clearance import Clearance
 
-_SEED = 20261130
-_POSES = 40
+_RANDOM_SEED = 20261130
+_POSE_COUNT = 40
 _MAX_OFFSET_RAD = 0.7  # of the joints of a candidate from home, rad
 _MIN_LENGTH_RAD = 1.5  # of a self-motion that is long enough to slide along
 _START_FRACTION = 0.25  # of the best worst case, which the start has at most
@@ -32,12 +32,12 @@ _STEP_S = 0.02  # of the page's simulation, in closed_loop.ts
 _DURATION_S = 12.0
 _REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
 _END_M = 0.001  # distance from the target at which a motion ends
-_MOTIONS = 400
+_MOTION_COUNT = 400
 _MIN_WAY_FRACTION = 0.15  # of the arm's length, from the start of a motion to its target
 
 
 @dataclass(frozen=True)
-class LawChoice:
+class StoryLaw:
     """A control law of the story: its label, and its name in a sentence."""
 
     slug: str
@@ -61,7 +61,7 @@ class Story:
 
     start: list[float]
     target: list[float]
-    laws: tuple[LawChoice, LawChoice]
+    laws: tuple[StoryLaw, StoryLaw]
     gain: float
     speed: float
     motions: int
@@ -81,18 +81,18 @@ def choose_start(arm: Arm, task: Task) -> FloatArray:
 
     The candidates lie on self-motions of poses near home, with the orientation of home. Of the self-motions that are at least
     1.5 rad long and collision-free, the one with the largest best worst case is chosen, and on it a configuration with at most
-    a quarter of that. The result is the same for the same arm. An arm without such a self-motion gets its generic configuration.
+    a quarter of that. The result is the same for the same arm. Without such a self-motion it is the generic configuration.
     """
     home = arm.states.get("home", generic_configuration(arm))
     if arm.n != task.m + 1:
         return generic_configuration(arm)
-    generator = np.random.default_rng(_SEED)
-    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSES, arm.n)), arm.lower, arm.upper)
+    generator = np.random.default_rng(_RANDOM_SEED)
+    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSE_COUNT, arm.n)), arm.lower, arm.upper)
     poses = arm.forward_kinematics(near)
     poses[:, :3, :3] = arm.forward_kinematics(home[None])[0, :3, :3]
     clearance = Clearance.by_default(arm)
     best, start = _STRUCTURAL_ZERO, generic_configuration(arm)
-    for motion in fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_SEED, clearance=clearance):
+    for motion in fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_RANDOM_SEED, clearance=clearance):
         for curve in motion.components:
             worst = measure_fractions(arm, task, curve.q).min(axis=1)
             low = np.flatnonzero(worst <= _START_FRACTION * worst.max())
@@ -140,7 +140,7 @@ def simulate_story(
     )
     medians = np.median(deviations, axis=1)
     example = int(np.argmin((abs(deviations / np.maximum(medians, 1e-9)[:, None] - 1)).sum(axis=0)))
-    choices = [LawChoice(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
+    choices = [StoryLaw(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
     return Story(
         start=start.tolist(),
         target=np.round(targets[example], 6).tolist(),
@@ -154,16 +154,16 @@ def simulate_story(
 
 def _draw_targets(arm: Arm, start: FloatArray) -> FloatArray:
     """Draw positions (400, 3) of random configurations near the start that are far enough away, m."""
-    generator = np.random.default_rng(_SEED)
+    generator = np.random.default_rng(_RANDOM_SEED)
     origin = arm.forward_kinematics(start[None])[0, :3, 3]
     targets = np.zeros((0, 3))
     offset = _MAX_OFFSET_RAD
-    while len(targets) < _MOTIONS:
-        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTIONS, arm.n)), arm.lower, arm.upper)
+    while len(targets) < _MOTION_COUNT:
+        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTION_COUNT, arm.n)), arm.lower, arm.upper)
         positions = arm.forward_kinematics(q)[:, :3, 3]
         is_far = np.linalg.norm(positions - origin, axis=1) >= _MIN_WAY_FRACTION * arm.length_unit
         targets, offset = np.vstack([targets, positions[is_far]]), 1.5 * offset
-    return targets[:_MOTIONS]
+    return targets[:_MOTION_COUNT]
 
 
 def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> FloatArray:
@@ -206,15 +206,15 @@ def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:
     if arm.n <= task.m:
         return start
     if arm.n == task.m + 1:
-        candidates = [curve.q for curve in fibres(arm, pose, task, spacing=_SPACING_RAD, seed=_SEED)[0].components]
+        candidates = [curve.q for curve in fibres(arm, pose, task, spacing=_SPACING_RAD, seed=_RANDOM_SEED)[0].components]
         nearest = [float(np.linalg.norm(q - start, axis=1).min()) for q in candidates]
         if not candidates:
             return start
         q = candidates[int(np.argmin(nearest))]
     else:
-        generator = np.random.default_rng(_SEED)
+        generator = np.random.default_rng(_RANDOM_SEED)
         starts = np.clip(start + generator.normal(0, 0.3, (64, arm.n)), arm.lower, arm.upper)
-        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_SEED)
+        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_RANDOM_SEED)
         found = solver(arm, task).solve(poses, seeds, 1, _REACH_TOLERANCE, first=starts)
         q = np.vstack([start, found.q[found.success]])
     return np.asarray(q[int(np.argmax(measure_fractions(arm, task, q).min(axis=1)))])
