@@ -245,9 +245,6 @@ class Arm(Presentable, ArmData):
     def page(self, file: str | Path | None = None, *, q: ArrayLike | None = None, **options: Any) -> Html:
         """Return an interactive page of the arm: one file that needs no server, network, or Python.
 
-        A visitor drags the tool, locks joints, and sees the remaining motion, a better configuration, two control laws
-        after an undetected lock, and the fall after a power cut. The numbers are computed in the browser.
-
         Args:
             file: HTML file to write; None: do not write.
             q: (n,) first configuration, rad and m. Default: a configuration that its self-motion improves most.

@@ -153,7 +153,8 @@ def _build_section(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
         for k, step in enumerate(STEP_NAMES)
     )
-    html = f"""<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>
+    attributes = f'data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" * hidden}'
+    html = f"""<section class="arm" {attributes}>
 <div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>
 <div class="arm-panel">
 <p class="arm-headline">{escape(texts["healthy_before"])}</p>
