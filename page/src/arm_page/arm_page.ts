@@ -51,7 +51,7 @@ export class ArmPage {
     const step = conditions.includes("locked") ? "lock" : "healthy";
     const defaults: PageState = { arm: data.name, step, q: data.scene.arms[0].q[0], conditions, brakeDelay: 150 };
     this.state = readAddress(location.hash, data, defaults);
-    this.bars = new Bars(this.find(".bars") as HTMLElement, data.texts, data.jointLabels, (joint, condition) =>
+    this.bars = new Bars(this.find(".bars") as HTMLElement, data.texts, (joint, condition) =>
       this.selectCondition(joint, condition),
     );
     this.handle = new ToolHandle(this.addHandle(), {

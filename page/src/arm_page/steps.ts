@@ -365,8 +365,8 @@ export class PowerStep extends Step {
     const drop = formatLength(this.drop);
     if (this.swing !== null) {
       const joint = capitalise(this.page.failedNames());
-      return [this.text("swing", { joint, angle: formatAngle(this.swing.toFarthest) }), this.text("swing_detail", {
-        delay: state.brakeDelay, drop, rest: formatAngle(this.swing.toRest) })];
+      const angle = formatAngle(Math.abs(this.swing.toFarthest));
+      return [this.text("swing", { joint, angle }), this.text("swing_detail", { delay: state.brakeDelay, drop })];
     }
     const { limitJoint, time } = this.fall as Fall;
     const end = time[time.length - 1];

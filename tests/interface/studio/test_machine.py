@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 import holdfast as hf
+import oracles
+from holdfast.interface.studio.scene.bars import losses_html
 from holdfast.interface.studio.scene.machine import REACH_TOLERANCE, CompiledArm
 from holdfast.model.arm.task import as_task
 
@@ -72,6 +75,24 @@ def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
     assert machine.evaluate_live_reading(q, (5,), "relative-manipulability", "torque").failure_joints == (5,)
     assert isinstance(reading.weights, str)  # nothing is known of these bodies
     assert "link" in reading.weights
+
+
+@pytest.mark.parametrize(("task", "angular"), [("pose", [0, 1, 2]), ("pointing", [0, 1]), ("position", [])])
+def test_ellipsoids_are_those_of_velocities_without_prescribed_rotation(mixed7, rng, task, angular):
+    machine = CompiledArm(mixed7, as_task(mixed7, task))
+    q = rng.uniform(-1, 1, 7)
+    reading = machine.evaluate_live_reading(q, (4,), "relative-manipulability", "torque")
+    j = oracles.jacobian(mixed7, q[None])[0]
+    rotations = (mixed7.frames(q)[-1][:3, :3].T @ j[3:])[angular] if angular else np.zeros((1, 7))
+    for shape, failed in ((reading.healthy_ellipsoid, []), (reading.failed_ellipsoid, [4])):
+        basis = scipy.linalg.null_space(np.delete(rotations, failed, axis=1))
+        left, radii, _ = np.linalg.svd(np.delete(j[:3], failed, axis=1) @ basis, full_matrices=False)
+        np.testing.assert_allclose(shape.radii, radii, atol=1e-12)
+        np.testing.assert_allclose(np.abs(np.sum(shape.axes * left, axis=0)), 1, atol=1e-6)
+    text = losses_html(mixed7, machine.task, reading, (4,))
+    assert ("ellipsoid of the non-rotating tool, m/s" in text) == bool(angular)
+    for radii in (reading.healthy_ellipsoid.radii, reading.failed_ellipsoid.radii):
+        assert " × ".join(f"{radius:.2g}" for radius in radii) in text
 
 
 def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():

@@ -228,7 +228,7 @@ class Arm(Presentable, ArmData):
     def show(self, q: ArrayLike | None = None, **options: Any) -> Html:
         """Return a page with the arm in a small 3-D view that needs no server, network, or other file.
 
-        A notebook shows the page; ``arm.show().save("arm.html")`` writes it. Without WebGL there is a drawing.
+        A notebook shows the page; ``arm.show().save("arm.html")`` writes it. Without JavaScript there is a drawing.
 
         Args:
             q: (n,) configuration, rad and m, or (A, n) several, the first solid and the others transparent; with ``time`` a

@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from hashlib import sha256
@@ -78,7 +78,10 @@ def build_page(
         InputError: Not two laws are given, or arguments do not fit the arm.
     """
     if len(laws) != 2:
-        raise InputError(f"laws has {len(laws)} names; the page compares two control laws")
+        raise InputError(f"laws has {len(laws)} name{'s' * (len(laws) != 1)}; the page compares two control laws")
+    for name, count in Counter([arm.name, *(other.name for other in beside)]).items():
+        if count > 1:
+            raise InputError(f"two arms have the name '{name}'; the menu needs different names")
     texts = read_texts()
     sections = [_build_section(arm, q, locked, laws, target, task, cell, plain)]
     sections += [_build_section(other, None, (), laws, None, None, None, plain, hidden=True) for other in beside]
@@ -87,7 +90,7 @@ def build_page(
     if beside:
         options = "".join(f"<option>{escape(name)}</option>" for name in names)
         menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
-    kernels = ",".join(f"{json.dumps(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
+    kernels = ",".join(f"{to_script_json(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
     style = read_template("viewer.css") + read_template("arm_page.css")
     scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template('arm_page.js').strip()}"]
     policy = (
@@ -157,7 +160,7 @@ def _build_section(
         + ("" if plain else f'<ol class="arm-steps" hidden>{steps}</ol>\n<div class="step-controls"></div>\n')
         + '<details class="arm-commands"></details>\n</div>\n'
         f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
-        f'<script type="application/json" class="arm-data">{to_script_json(data)}</script>\n</section>'
+        f'<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>\n</section>'
     )
     return _ArmSection(html, print_page_kernels(arm, page_task, laws))
 
@@ -177,7 +180,8 @@ def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, text
         f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
         f'<span class="bar-value">{format_percent(fraction)}</span>'
-        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span></button>'
+        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span>'
+        '<span class="visually-hidden"></span></button>'
         for k, (label, fraction) in enumerate(zip(labels, fractions, strict=True))
     ]
     note = texts["bound"].format(count=len(labels), bound=format_percent(bound))

@@ -62,8 +62,8 @@ def _explain_bars(context: GuideContext) -> str:
 def _explain_lock(context: GuideContext) -> str:
     return (
         f"{context.worst} is locked, and {context.remaining} of the manipulability remains. The blue wire frame shows how fast "
-        "the healthy arm can move the tool, the orange body how fast it still can. The orange line and ring mark the motion "
-        "that loses most speed."
+        "the healthy arm can translate the tool, the orange body how fast it still can. The orange line and ring mark the "
+        "motion that loses most speed."
     )
 
 

@@ -63,8 +63,9 @@ def losses_html(arm: Arm, task: Task, reading: LiveReading, failed: Sequence[int
     before, after = (
         " × ".join(format_value(r, 2) for r in shape.radii) for shape in (reading.healthy_ellipsoid, reading.failed_ellipsoid)
     )
+    tool = "non-rotating tool" if task.angular else "tool"
     lines.append(
-        f'<span class="hf-soft">ellipsoid of the tool, m/s at joint rates of norm 1: healthy {before}, failed {after}</span>'
+        f'<span class="hf-soft">ellipsoid of the {tool}, m/s at joint rates of norm 1: healthy {before}, failed {after}</span>'
     )
     return f'<div class="hf-bars">{"<br>".join(lines)}</div>'
 

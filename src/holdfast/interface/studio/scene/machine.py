@@ -25,7 +25,7 @@ from holdfast.kinematics.indices.lost_directions import (
     DirectionLoss,
     Ellipsoid,
     find_speed_losses,
-    manipulability_ellipsoid,
+    find_tool_ellipsoid,
     null_space_joint_rates,
 )
 from holdfast.kinematics.indices.objective import Objective
@@ -188,13 +188,14 @@ class CompiledArm:
         """Evaluate all live values at q (n,), and with dry ``friction``, N m or N, for a power loss of the joints."""
         bars = self._evaluate_index_bars(q, index_name)
         failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
-        linear_jacobian = self.arm.jacobian(q)[:3]
+        linear_jacobian, angular_jacobian = np.split(self.arm.jacobian(q), 2)
+        angular_rows = self.task.world_rows(self.tool_pose(q)[:3, :3])[:, 3:] @ angular_jacobian
         task_jacobian = self._task_jacobian(q).reshape(self.task.m, self.arm.n)
         return LiveReading(
             bars,
             self._evaluate_susceptibility_bars(q, susceptibility_name),
-            manipulability_ellipsoid(linear_jacobian),
-            manipulability_ellipsoid(linear_jacobian, failure_joints),
+            find_tool_ellipsoid(linear_jacobian, angular_rows),
+            find_tool_ellipsoid(linear_jacobian, angular_rows, failure_joints),
             failure_joints,
             find_speed_losses(task_jacobian, failure_joints),
             self._describe_power_loss(q, powerless, friction),
@@ -253,11 +254,8 @@ class CompiledArm:
         from scipy.spatial.transform import Rotation
 
         tool = self.tool_pose(q)
-        to_task_frame = tool[:3, :3].T if self.task.frame == "tool" else np.eye(3)
         angular = Rotation.from_matrix(pose[:3, :3] @ tool[:3, :3].T).as_rotvec()
-        return float(
-            np.linalg.norm(self.task.rows @ np.r_[to_task_frame @ (pose[:3, 3] - tool[:3, 3]), to_task_frame @ angular])
-        )
+        return float(np.linalg.norm(self.task.world_rows(tool[:3, :3]) @ np.r_[pose[:3, 3] - tool[:3, 3], angular]))
 
     def nearby_configuration(self, q: FloatArray) -> FloatArray:
         """Return a configuration near q (n,) within the limits, whose pose is a reachable target."""

@@ -21,7 +21,7 @@ PURPLE_RGB = (168, 73, 127)
 GRID_RGB = (150, 157, 164)  # visible on white and on black
 GHOST_COLORS: tuple[Color, ...] = (GREEN_RGB, ORANGE_RGB, BLUE_RGB, PURPLE_RGB)
 LABEL_ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # so that the labels of two ghosts in one place do not overlap
-ELLIPSOID_TIME_S = 0.22  # an ellipsoid shows the motion of the tool in this time at joint rates of norm 1
+ELLIPSOID_TIME_S = 0.22  # an ellipsoid shows the translation of the tool in this time at joint rates of norm 1
 MAX_MARKED_FRACTION = 0.99  # a direction with a larger remaining fraction is not marked
 _MAX_MARKS = 2  # largest number of marked directions
 _RING_SEGMENTS = 24
@@ -151,10 +151,8 @@ class Stage:
 
     def _loss_segments(self, loss: DirectionLoss, tool_pose: FloatArray) -> FloatArray:
         """Return segments (_RING_SEGMENTS + 3, 2, 3): a line through the end effector, and a ring about the rotation axis."""
-        task = self.machine.task
-        twist = task.rows.T @ loss.direction
-        rotation = tool_pose[:3, :3] if task.frame == "tool" else np.eye(3)
-        linear, angular = rotation @ twist[:3], rotation @ twist[3:]
+        twist = self.machine.task.world_rows(tool_pose[:3, :3]).T @ loss.direction
+        linear, angular = twist[:3], twist[3:]
         half_length, center = 0.24 * self.machine.size, tool_pose[:3, 3]
         segments = np.tile(center, (_RING_SEGMENTS + 3, 2, 1))
         segments[0] = [center - half_length * linear, center + half_length * linear]

@@ -1,0 +1,134 @@
+/** Questions of the studio, which a local Python server answers; holdfast/interface/studio/answers.py gives the answers. */
+
+import type { Condition } from "./address";
+import type { Vector } from "../viewer/scene";
+
+/** A view of the studio, with the fields of the Python class `State`. */
+export interface StudioState {
+  arm: string;
+  names: string[];
+  q: number[];
+  task: string;
+  base: string | null;
+  tip: string | null;
+  hold: [string, number][];
+  conditions: Condition[];
+  index: string;
+  susceptibility: string;
+  objective: string;
+  laws: [string, string];
+  /** Position, m, and quaternion x, y, z, w of the target. */
+  target: number[] | null;
+  show: string;
+  file: string | null;
+  region: string | null;
+  time: number;
+  cell: string | null;
+  meshes: string | null;
+  moved: [string, number[]][];
+  /** Kind of the fault, joint, and its time, s. */
+  fault: [string, string, number];
+  friction: number | null;
+}
+
+/** What the page of the studio has in addition to `ArmPageData`. */
+export interface StudioData {
+  token: string;
+  state: StudioState;
+  indices: string[];
+  susceptibilities: string[];
+  laws: string[];
+  faults: string[];
+  objects: { name: string; pose: number[] }[];
+}
+
+export interface JointBars {
+  title: string;
+  better: "larger" | "smaller";
+  unit: string[];
+  values: (number | null)[];
+  worst: number;
+  status: string;
+}
+
+export interface Motion {
+  label: string;
+  /** Unit of the time: s, or cycles. */
+  unit: string;
+  time: number[];
+  /** Configurations (T x n), rad and m. */
+  q: number[][];
+}
+
+export interface Cloud {
+  label: string;
+  points: Vector[];
+  /** Colours of the points, 0 to 255. */
+  colors: Vector[];
+  /** Configuration of each point; null where none was found. */
+  q: (number[] | null)[];
+  values: (number | null)[];
+}
+
+export interface Watch {
+  motion: Motion;
+  /** Times of the residuals, s, and the residual of each joint divided by its threshold (T x n). */
+  time: number[];
+  residuals: number[][];
+  onset: number;
+  /** Sentences of the monitor, each from a time on, s. */
+  sentences: { from: number; text: string }[];
+}
+
+/** Answer to each question. */
+export interface Answers {
+  reading: {
+    index: JointBars | string;
+    susceptibility: JointBars | string;
+    powerLoss: string;
+    clearance: string;
+    command: string;
+  };
+  "best-worst": { q: [number[], number[]]; values: [number, number, number] };
+  laws: Motion[];
+  fall: Motion[];
+  region: Cloud;
+  watch: Watch;
+  /** A file that the visitor opens: a motion to play, or the address of the page of another arm. */
+  open: { motion: Motion } | { address: string };
+  drawing: { svg: string };
+  "cell-file": { name: string; text: string };
+}
+
+export type Question = keyof Answers;
+
+/** Ask the server; `progress` hears of steps that are done. A newer question aborts an older one through `signal`. */
+export async function ask<Q extends Question>(
+  question: Q,
+  token: string,
+  state: StudioState,
+  options: { signal?: AbortSignal; progress?: (done: number, total: number) => void; file?: { name: string; content: string } } = {},
+): Promise<Answers[Q]> {
+  const reply = await fetch(`answer/${question}`, {
+    method: "POST",
+    headers: { "Content-Type": "application/json", "X-Token": token },
+    body: JSON.stringify({ state, file: options.file ?? null }),
+    signal: options.signal ?? null,
+  });
+  if (!reply.body) throw new Error("The server has stopped.");
+  const reader = reply.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { value, done } = await reader.read();
+    text += value ?? "";
+    const lines = text.split("\n");
+    text = lines.pop() ?? "";
+    for (const line of lines) {
+      const message = JSON.parse(line) as { progress?: [number, number]; error?: string; answer?: Answers[Q] };
+      if (message.error !== undefined) throw new Error(message.error);
+      if (message.progress) options.progress?.(...message.progress);
+      if (message.answer !== undefined) return message.answer;
+    }
+    if (done) throw new Error("The server has stopped.");
+  }
+}
