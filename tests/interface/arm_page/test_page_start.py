@@ -118,6 +118,16 @@ def test_the_story_states_the_medians_of_its_motions():
         assert run.outcome == "converged"
 
 
+def test_the_example_is_typical_where_few_motions_arrive():
+    arm = hf.arms.load("planar-3r")
+    task = as_task(arm, "planar")
+    start = choose_start(arm, task)
+    prepared = find_prepared(arm, task, start)
+    story = simulate_story(arm, task, start, prepared, LAWS)
+    example = simulate_story(arm, task, start, prepared, LAWS, target=story.target)
+    np.testing.assert_allclose(example.deviations, story.deviations, rtol=0.25)
+
+
 def test_arms_without_redundancy():
     ur5, planar = hf.arms.load("ur5"), hf.arms.load("planar-2r")
     pose, plane = as_task(ur5, "pose"), as_task(planar, "planar")

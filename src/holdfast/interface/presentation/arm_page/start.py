@@ -35,6 +35,7 @@ _REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
 _END_M = 0.001  # distance from the target at which a motion ends
 _MOTIONS = 400
 _MAX_TARGET_OFFSET_RAD = 50.0  # beyond which any target is taken, because the arm hardly moves
+_MIN_ARRIVED_FRACTION = 0.5  # of the motions, for an example that arrives
 _MIN_WAY_FRACTION = 0.15  # of the arm's length, from the start of a motion to its target
 
 
@@ -118,8 +119,8 @@ def simulate_story(
     """Simulate 400 random motions with an undetected lock of the worst joint, or only the one to a given ``target``.
 
     The targets are positions of random configurations near the start. The example is the motion whose deviations are closest
-    to the three medians, of those that arrive if there are any. Where the arm has too few joints for a position task, there is
-    no story.
+    to the three medians, of those that arrive if these are at least half. Where the arm has too few joints for a position
+    task, there is no story.
 
     Args:
         arm: Arm to simulate.
@@ -151,7 +152,9 @@ def simulate_story(
     deviations, have_arrived = (np.stack(arrays) for arrays in zip(*runs, strict=True))
     medians = np.median(deviations, axis=1)
     distances = abs(deviations / np.maximum(medians, 1e-9)[:, None] - 1).sum(axis=0)
-    example = int(np.argmin(np.where(have_arrived.all(axis=0), distances, 1e6 + distances)))
+    is_suitable = have_arrived.all(axis=0)
+    is_suitable |= np.mean(is_suitable) < _MIN_ARRIVED_FRACTION
+    example = int(np.argmin(np.where(is_suitable, distances, np.inf)))
     choices = [LawChoice(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
     return Story(
         start=start.tolist(),
