@@ -20,8 +20,8 @@ from holdfast.model.arm.postures import generic_configuration
 from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.collision.clearance import Clearance
 
-_SEED = 20261130
-_POSES = 40
+_RANDOM_SEED = 20261130
+_POSE_COUNT = 40
 _MAX_OFFSET_RAD = 0.7  # of the joints of a candidate from home, rad
 _MIN_LENGTH_RAD = 1.5  # of a self-motion that is long enough to slide along
 _START_FRACTION = 0.25  # of the best worst case, which the start has at most
@@ -33,14 +33,14 @@ _STEP_S = 0.02  # of the page's simulation, in closed_loop.ts
 _DURATION_S = 12.0
 _REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
 _END_M = 0.001  # distance from the target at which a motion ends
-_MOTIONS = 400
+_MOTION_COUNT = 400
 _MAX_TARGET_OFFSET_RAD = 50.0  # beyond which any target is taken, because the arm hardly moves
 _MIN_ARRIVED_FRACTION = 0.5  # of the motions, for an example that arrives
 _MIN_WAY_FRACTION = 0.15  # of the arm's length, from the start of a motion to its target
 
 
 @dataclass(frozen=True)
-class LawChoice:
+class StoryLaw:
     """A control law of the story: its label, and its name in a sentence."""
 
     slug: str
@@ -64,7 +64,7 @@ class Story:
 
     start: list[float]
     target: list[float]
-    laws: tuple[LawChoice, LawChoice]
+    laws: tuple[StoryLaw, StoryLaw]
     gain: float
     speed: float
     motions: int
@@ -91,11 +91,11 @@ def choose_start(arm: Arm, task: Task) -> FloatArray:
     home = arm.states.get("home", generic)
     if arm.n != task.m + 1:
         return generic
-    generator = np.random.default_rng(_SEED)
-    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSES, arm.n)), arm.lower, arm.upper)
+    generator = np.random.default_rng(_RANDOM_SEED)
+    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSE_COUNT, arm.n)), arm.lower, arm.upper)
     poses = arm.forward_kinematics(near)
     poses[:, :3, :3] = arm.forward_kinematics(home[None])[0, :3, :3]
-    motions = fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_SEED)
+    motions = fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_RANDOM_SEED)
     curves = [curve for motion in motions for curve in motion.components if curve.length >= _MIN_LENGTH_RAD]
     if not curves:
         return generic
@@ -155,7 +155,7 @@ def simulate_story(
     is_suitable = have_arrived.all(axis=0)
     is_suitable |= np.mean(is_suitable) < _MIN_ARRIVED_FRACTION
     example = int(np.argmin(np.where(is_suitable, distances, np.inf)))
-    choices = [LawChoice(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
+    choices = [StoryLaw(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
     return Story(
         start=start.tolist(),
         target=np.round(targets[example], 6).tolist(),
@@ -169,17 +169,17 @@ def simulate_story(
 
 def _draw_targets(arm: Arm, start: FloatArray) -> FloatArray:
     """Draw positions (400, 3) of random configurations near the start that are far enough away, m."""
-    generator = np.random.default_rng(_SEED)
+    generator = np.random.default_rng(_RANDOM_SEED)
     origin = arm.forward_kinematics(start[None])[0, :3, 3]
     targets = np.zeros((0, 3))
     offset = _MAX_OFFSET_RAD
-    while len(targets) < _MOTIONS:
-        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTIONS, arm.n)), arm.lower, arm.upper)
+    while len(targets) < _MOTION_COUNT:
+        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTION_COUNT, arm.n)), arm.lower, arm.upper)
         positions = arm.forward_kinematics(q)[:, :3, 3]
         is_far = np.linalg.norm(positions - origin, axis=1) >= _MIN_WAY_FRACTION * arm.length_unit
         is_far |= offset > _MAX_TARGET_OFFSET_RAD
         targets, offset = np.vstack([targets, positions[is_far]]), 1.5 * offset
-    return targets[:_MOTIONS]
+    return targets[:_MOTION_COUNT]
 
 
 def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> tuple[FloatArray, BoolArray]:
@@ -230,9 +230,9 @@ def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:
         make_tracer(arm, task).trace_curves(pose, np.array([0]), start[None], _SPACING_RAD, curves)
         q = np.vstack([start, *(curve.q for curve in curves[0])])
     else:
-        generator = np.random.default_rng(_SEED)
+        generator = np.random.default_rng(_RANDOM_SEED)
         starts = np.clip(start + generator.normal(0, 0.3, (64, arm.n)), arm.lower, arm.upper)
-        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_SEED)
+        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_RANDOM_SEED)
         found = solver(arm, task).solve(poses, seeds, 1, _REACH_TOLERANCE, first=starts)
         q = np.vstack([start, found.q[found.success]])
     return np.asarray(q[int(np.argmax(measure_fractions(arm, task, q).min(axis=1)))])
