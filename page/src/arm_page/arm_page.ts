@@ -74,6 +74,13 @@ export class ArmPage {
     return this.state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
   }
 
+  /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
+  get controlTarget(): Vector {
+    const { story } = this.data;
+    const tool = this.arm.toolPosition(this.state.q);
+    return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
+  }
+
   label(joint: number): string {
     return this.data.jointLabels[joint];
   }
@@ -211,7 +218,7 @@ export class ArmPage {
     } catch {
       // A page in a sandboxed frame has no address of its own.
     }
-    writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst);
+    writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst, this.controlTarget);
   }
 
   /** Place what lies over the picture. */

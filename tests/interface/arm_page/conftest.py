@@ -17,7 +17,7 @@ from holdfast.model.arm.task import as_task, default_path_task
 from javascript import node
 
 PAGE = Path(__file__).parents[3] / "page"
-MODULES = ("arm_model", "closed_loop", "failures", "power_loss", "self_motion", "small_matrices", "tool_drag")
+MODULES = ("arm_model", "closed_loop", "commands", "failures", "power_loss", "self_motion", "small_matrices", "tool_drag")
 CRANE = Path(__file__).parents[1] / "studio" / "arms" / "inspection-crane.urdf"
 _MAIN = """\
 import {{ readFileSync, writeFileSync }} from "node:fs";

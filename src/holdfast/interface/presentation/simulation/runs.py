@@ -88,7 +88,7 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
         facts=[
             *list_error_facts(runs, drawing.error_curve, drawing.smallest_errors, run_index),
             Fact("length of the tool path", path_length, "m", phrase="length of the tool path" * (path_length > REACHED_ERROR)),
-            *_list_line_facts(runs, run_index),
+            *([] if law.task.angular else [Fact("largest distance from a straight line", runs.line_deviation(run_index), "m")]),
             Fact("simulated time", time, unit, phrase="simulated time" * (time > REACHED_ERROR)),
             *[
                 Fact("", contact.time, unit, phrase=f"until {contact.link} touches {contact.object}")
@@ -102,13 +102,6 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
         arm=arm,
         exports={"run.csv": lambda path: runs.to_csv(path, run_index)},
     )
-
-
-def _list_line_facts(runs: Runs, run_index: int) -> list[Fact]:
-    """Return the distance of the tool from a straight line, which means something for a target without orientation."""
-    if runs.law.task.angular:
-        return []
-    return [Fact("largest distance from the straight line", runs.line_deviation(run_index), "m")]
 
 
 def _present_outcomes(runs: Runs) -> Presentation:
