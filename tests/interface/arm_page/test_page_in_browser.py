@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -109,8 +110,8 @@ def test_a_page_without_script_shows_the_answer(browser, panda_html, tmp_path):
 def test_names_from_a_file_are_never_read_as_html(opened):
     name = "</script><img src=x onerror=alert(1)>"
     plain = arms.load("planar-3r")
-    joints = tuple(hf.Joint(**{**vars(joint), "name": f"{name}{k}"}) for k, joint in enumerate(plain.joints))
-    page = opened(hf.Arm(**{**vars(plain), "name": name, "joints": joints}).page().to_html())
+    joints = tuple(replace(joint, name=f"{name}{k}") for k, joint in enumerate(plain.joints))
+    page = opened(replace(plain, name=name, joints=joints).page().to_html())
     for step in STEPS:
         enter(page, step)
     rest(page)
