@@ -30,3 +30,4 @@ const first = Math.max(0, sections.findIndex((section) => section.dataset.name =
 if (menu) menu.selectedIndex = first;
 sections.forEach((section, k) => (section.hidden = k !== first));
 if (sections.length) start(sections[first]);
+performance.mark("arm page ready");
