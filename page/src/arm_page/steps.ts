@@ -150,7 +150,7 @@ export class PrepareStep extends Step {
     this.input.disabled = worst.length < 2;
     this.input.setAttribute("aria-valuetext", this.sentences()[0]);
     const bound = this.page.data.bound;
-    const yMax = Math.max(...worst, bound) * 1.08;
+    const yMax = Math.max(...worst, bound);
     this.curve.replaceChildren(
       drawCurve({
         x: worst.map((_, k) => k),
@@ -161,7 +161,7 @@ export class PrepareStep extends Step {
         xEnds: ["", ""],
         yLabel: this.text("curve_worst"),
         marker: this.index,
-        limit: bound ? { y: bound, label: this.text("curve_bound", { bound: formatPercent(bound) }) } : undefined,
+        limit: bound ? { y: bound, label: this.text("curve_bound") } : undefined,
         alternative: this.text("curve_worst_alternative", {
           first: formatPercent(worst[0]),
           last: formatPercent(worst[worst.length - 1]),
