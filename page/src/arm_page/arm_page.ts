@@ -90,6 +90,13 @@ export class ArmPage {
     return this.state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
   }
 
+  /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
+  get controlTarget(): Vector {
+    const { story } = this.data;
+    const tool = this.arm.toolPosition(this.state.q);
+    return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
+  }
+
   label(joint: number): string {
     return this.data.jointLabels[joint];
   }
@@ -224,7 +231,7 @@ export class ArmPage {
 
   /** Commands and Python lines that reproduce what the page shows. */
   protected listCode(): Code[] {
-    return reproduce(this.data, this.state, this.worst);
+    return reproduce(this.data, this.state, this.worst, this.controlTarget);
   }
 
   /** Place what lies over the picture. */

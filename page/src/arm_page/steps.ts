@@ -254,9 +254,8 @@ export class UndetectedStep extends Step {
     if (story === null || this.player.playing) return;
     const self = traceSelfMotion(arm, state.q);
     const prepared = self.configurations[self.best];
-    const [tool, first] = [arm.toolPosition(state.q), arm.toolPosition(story.start)];
-    const target = tool.map((value, k) => value + story.target[k] - first[k]) as Vector;
-    this.line = [tool, target];
+    const target = this.page.controlTarget;
+    this.line = [arm.toolPosition(state.q), target];
     const starts = [state.q, state.q, prepared];
     const laws = [story.laws[0], story.laws[1], story.laws[0]];
     this.motions = starts.map((start, k) =>

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import yaml
-from wellformed import check
 
 import axe
 import chromium
@@ -16,6 +16,7 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.core.errors import HoldfastError
 from holdfast.interface.report.viewer import read_template
+from wellformed import check
 
 STEPS = ("healthy", "lock", "prepare", "undetected", "power")
 LAST = "document.querySelector('.arm').armPage"
@@ -109,8 +110,8 @@ def test_a_page_without_script_shows_the_answer(browser, panda_html, tmp_path):
 def test_names_from_a_file_are_never_read_as_html(opened):
     name = "</script><img src=x onerror=alert(1)>"
     plain = arms.load("planar-3r")
-    joints = tuple(hf.Joint(**{**vars(joint), "name": f"{name}{k}"}) for k, joint in enumerate(plain.joints))
-    page = opened(hf.Arm(**{**vars(plain), "name": name, "joints": joints}).page().to_html())
+    joints = tuple(replace(joint, name=f"{name}{k}") for k, joint in enumerate(plain.joints))
+    page = opened(replace(plain, name=name, joints=joints).page().to_html())
     for step in STEPS:
         enter(page, step)
     rest(page)

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wellformed import check
 
 import axe
 import chromium
@@ -21,6 +20,7 @@ from holdfast.core.errors import InputError
 from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.report import page, viewer
 from holdfast.model.arm import generic_configuration
+from wellformed import check
 
 
 def data(html):

@@ -29,6 +29,7 @@ from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, default_path_task
+from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 
 STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
@@ -125,7 +126,7 @@ def _build_section(
     plain: bool,
     hidden: bool = False,
 ) -> _ArmSection:
-    texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
+    texts, page_task = read_texts(), as_task(arm, task or default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
     story = None if plain else simulate_story(arm, page_task, start, find_prepared(arm, page_task, start), laws, target)
     labels = label_joints(arm)
@@ -152,16 +153,20 @@ def _build_section(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
         for k, step in enumerate(STEP_NAMES)
     )
-    html = (
-        f'<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>\n'
-        f'<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>\n'
-        f'<div class="arm-panel">\n<p class="arm-headline">{escape(texts["healthy_before"])}</p>\n'
-        f'<p class="arm-detail">{escape(texts["healthy_detail"])}</p>\n<p class="visually-hidden" aria-live="polite"></p>\n{bars}\n'
-        + ("" if plain else f'<ol class="arm-steps" hidden>{steps}</ol>\n<div class="step-controls"></div>\n')
-        + '<details class="arm-commands"></details>\n</div>\n'
-        f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
-        f'<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>\n</section>'
-    )
+    attributes = f'data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" * hidden}'
+    html = f"""<section class="arm" {attributes}>
+<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>
+<div class="arm-panel">
+<p class="arm-headline">{escape(texts["healthy_before"])}</p>
+<p class="arm-detail">{escape(texts["healthy_detail"])}</p>
+<p class="visually-hidden" aria-live="polite"></p>
+{bars}
+{"" if plain else f'<ol class="arm-steps" hidden>{steps}</ol><div class="step-controls"></div>'}
+<details class="arm-commands"></details>
+</div>
+<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>
+<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>
+</section>"""
     return _ArmSection(html, print_page_kernels(arm, page_task, laws))
 
 
@@ -177,7 +182,8 @@ def _write_python_arm(arm: Arm, argument: str) -> str:
 def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:
     worst = int(np.argmin(fractions))
     buttons = [
-        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
+        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" '
+        f'style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
         f'<span class="bar-value">{format_percent(fraction)}</span>'
         f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span>'
