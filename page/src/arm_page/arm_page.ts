@@ -2,7 +2,7 @@
 
 import { h } from "../dom";
 import { place, sum } from "../viewer/algebra";
-import type { Part, Pose } from "../viewer/scene";
+import type { Part, Pose, Vector } from "../viewer/scene";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
 import { View } from "../viewer/view";
