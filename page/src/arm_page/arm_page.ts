@@ -19,7 +19,7 @@ import { reachTarget, searchTarget } from "./tool_drag";
 
 const REST_MS = 400; // without change, until the page reports a state and computes what takes long
 
-export class ArmPage {
+export class ArmPage<Data extends ArmPageData = ArmPageData> {
   readonly arm: ArmModel;
   readonly controls: HTMLElement;
   readonly state: PageState;
@@ -40,7 +40,7 @@ export class ArmPage {
 
   constructor(
     protected readonly section: HTMLElement,
-    readonly data: ArmPageData,
+    readonly data: Data,
     kernels: PrintedKernels,
     box: HTMLElement,
     canvas: HTMLCanvasElement,
@@ -220,7 +220,8 @@ export class ArmPage {
 
   /** Tell a screen reader, the address, and the commands once nothing has changed for a while. */
   private reportRest(headline: string): void {
-    (this.find("[aria-live]") as HTMLElement).textContent = headline;
+    const live = this.find("[aria-live]") as HTMLElement;
+    if (live.textContent !== headline) live.textContent = headline;
     try {
       history.replaceState(null, "", writeAddress(this.state));
     } catch {

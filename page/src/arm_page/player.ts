@@ -2,10 +2,12 @@
 
 import { h } from "../dom";
 
+const LONGEST_PLAY_S = 15;
+
 export interface PlayerOptions {
   /** Texts of the button and of the slider. */
   texts: Record<string, string>;
-  /** Shown time per second of playing. */
+  /** Shown time per second of playing, or more for a long motion. */
   speed: number;
   show: () => void;
 }
@@ -15,6 +17,7 @@ export class Player {
   time = 0;
   readonly element: HTMLElement;
   private duration = 0;
+  private speed = 1;
   private unit = "s";
   private timer = 0;
   private readonly input = h("input", { type: "range", min: 0, step: "any" });
@@ -39,6 +42,7 @@ export class Player {
   open(duration: number, time = duration, unit = "s"): void {
     this.stop();
     [this.duration, this.unit] = [duration, unit];
+    this.speed = Math.max(this.options.speed, duration / LONGEST_PLAY_S);
     this.input.max = String(duration);
     this.showTime(Math.min(time, duration));
   }
@@ -64,7 +68,7 @@ export class Player {
     let begun = 0;
     const tick = (now: number): void => {
       begun ||= now;
-      this.showTime(Math.min(this.duration, from + (this.options.speed * (now - begun)) / 1000));
+      this.showTime(Math.min(this.duration, from + (this.speed * (now - begun)) / 1000));
       if (this.time >= this.duration) this.stop();
       else this.timer = requestAnimationFrame(tick);
     };

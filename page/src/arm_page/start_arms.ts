@@ -9,7 +9,7 @@ declare const armKernels: Record<string, PrintedKernels>;
 
 type Section = HTMLElement & { armPage?: ArmPage };
 
-type PageClass = new (...args: ConstructorParameters<typeof ArmPage>) => ArmPage;
+type PageClass = new (...args: ConstructorParameters<typeof ArmPage<any>>) => ArmPage;
 
 /** Start the arms of the document with a class of pages and its steps. */
 export function startArms(pageClass: PageClass, steps: StepClasses): void {

@@ -20,12 +20,12 @@ const STRUCTURAL_ZERO = 1e-6; // relative manipulability below which a joint has
 const PLAY_SPEED = 2; // simulated seconds per second
 const TRAIL_STYLES = ["solid", "dotted", "dashed"] as const;
 
-export abstract class Step {
+export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Configurations that the picture shows transparently. */
   ghosts: ArrayLike<number>[] = [];
   ghostColors: GhostColor[] = [];
 
-  constructor(protected readonly page: ArmPage) {}
+  constructor(protected readonly page: Page) {}
 
   /** Set the joints and write the controls, after the visitor has chosen the step. */
   abstract enter(): void;
@@ -306,7 +306,7 @@ export class UndetectedStep extends Step {
   }
 }
 
-export class PowerStep extends Step {
+export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
   private fall: Fall | null = null;
   private swing: Swing | null = null;
   private input = this.slider("brake_delay", MAX_BRAKE_DELAY_MS, BRAKE_DELAY_STEP_MS, 0, (delay) => this.setDelay(delay));

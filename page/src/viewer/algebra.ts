@@ -28,6 +28,11 @@ export function times(a: Pose, b: Pose): Pose {
   return out;
 }
 
+/** The pose that undoes a pose. */
+export function inverse(a: Pose): Pose {
+  return [0, 1, 2].flatMap((k) => [a[k], a[4 + k], a[8 + k], -dot(column(a, k), place(a))]);
+}
+
 export const place = (a: Pose): Vector => [a[3], a[7], a[11]];
 export const column = (a: Pose, k: number): Vector => [a[k], a[4 + k], a[8 + k]];
 

@@ -29,6 +29,8 @@ export class View {
   onPick: ((part: Part) => void) | null = null;
   /** Motion of each object of the cell from its place in the scene, in the world. */
   objectMotions: Pose[] = [];
+  /** Index of the object that the arm touches; -1 for none. */
+  touchedObject = -1;
   names: boolean | null = null;
   private at = 0; // frame of the motion, with its fraction
   private posed: number[] | null = null;
@@ -40,6 +42,8 @@ export class View {
   private waiting = 0;
   private visible = false;
   private readonly floor: Vector[];
+  /** Parts of the objects around the arm. */
+  readonly objects: Part[];
   private readonly show: (k: number) => void;
   private readonly solve: (q: number[]) => Pose[];
 
@@ -54,6 +58,7 @@ export class View {
     this.solve = options.frames ?? ((q) => frames(scene, q));
     this.camera = new Camera(scene);
     this.floor = floor(scene);
+    this.objects = scene.parts.filter((part) => part.object);
     listenToPointers(this);
     this.show = options.plain ? () => undefined : controls(this);
     new IntersectionObserver((seen) => {
@@ -229,15 +234,15 @@ export class View {
     return this.placeParts(parts, poses).map(({ part, pose }) => {
       const condition = this.condition(part.joint);
       const own = part.color.map((x) => x / 255) as Vector;
-      return { part, pose, color: condition ? failed[condition] : arm ? ghost : own };
+      const touched = part.object && this.objects.indexOf(part) === this.touchedObject;
+      return { part, pose, color: touched ? palette.orange : condition ? failed[condition] : arm ? ghost : own };
     });
   }
 
   /** The pose of each part in the world; objects of the cell may have moved. */
   private placeParts(parts: Part[], poses: Pose[]): Pick<Body, "part" | "pose">[] {
-    const objects = this.objectMotions.length ? this.scene.parts.filter((part) => part.object) : [];
     return parts.map((part) => {
-      const moved = this.objectMotions[objects.indexOf(part)];
+      const moved = part.object && this.objectMotions[this.objects.indexOf(part)];
       return { part, pose: moved ? times(moved, poses[part.frame]) : poses[part.frame] };
     });
   }
