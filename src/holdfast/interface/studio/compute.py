@@ -9,10 +9,10 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
+from holdfast.interface.studio.cloud import RegionCloud, assess_around_tool, read_cloud
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.monitor_demo import simulate_monitor_demo
 from holdfast.interface.studio.motions import PlayedMotion, simulate_fall_motion, simulate_law_motions
-from holdfast.interface.studio.scene.cloud import RegionCloud, assess_around_tool, read_cloud
-from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 
 Progress = Callable[[int, int], None]

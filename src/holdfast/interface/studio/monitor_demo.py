@@ -1,10 +1,9 @@
-"""Demonstration of a calibrated monitor that identifies a joint fault during a motion: simulation and drawing."""
+"""Demonstration of a calibrated monitor that identifies a joint fault during a motion: simulation."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from html import escape
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -12,8 +11,8 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.motions import MOTION_SAMPLES, PlayedMotion
-from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.model.arm.poses import pose_from_quaternion
 from holdfast.response.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
@@ -46,15 +45,7 @@ MOTION_TIME_LIMIT_S = 8.0
 # large because the motions are few
 HEALTHY_MOTIONS = 4
 THRESHOLD_FACTOR = 2.0
-# MAX_LINE_POINTS and PLAYBACK_STEPS: points of a line, and steps of the time during playback
-MAX_LINE_POINTS = 150
-PLAYBACK_STEPS = 60
-# _MIN_DRAWN_RATIO and _MAX_DRAWN_RATIO: drawn range of a residual, in units of its threshold
-_MIN_DRAWN_RATIO = 0.1
-_MAX_DRAWN_RATIO = 30.0
-# _PANEL_WIDTH_PX and _PANEL_HEIGHT_PX: size of one panel, px
-_PANEL_WIDTH_PX = 300
-_PANEL_HEIGHT_PX = 74
+MAX_LINE_POINTS = 150  # points of the line of a residual
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,10 +60,7 @@ class MonitorDemo:
         alarm_time: Time of the alarm, s; infinite without an alarm.
         joint: Index of the isolated joint, from 0; None without one.
         isolation_time: Time of the isolation, s; infinite without an isolated joint.
-        kind: Kind of the fault, as the monitor names it.
-        classification_time: Time from which the kind and the findings are known, s; infinite without an alarm.
-        findings: Sentences about the fault.
-        inconclusive: Sentences about inconclusive results.
+        sentences: Times, s, and the sentences of the monitor that are known from then on.
     """
 
     motion: PlayedMotion
@@ -82,10 +70,7 @@ class MonitorDemo:
     alarm_time: float
     joint: int | None
     isolation_time: float
-    kind: str
-    classification_time: float
-    findings: tuple[str, ...]
-    inconclusive: tuple[str, ...]
+    sentences: tuple[tuple[float, str], ...]
 
 
 _last_thresholds: dict[object, Bounds] = {}  # of the last request, so that another fault needs one motion and not five
@@ -151,19 +136,8 @@ def _to_task_target(machine: CompiledArm, pose: FloatArray) -> FloatArray:
 
 def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: tuple[str, ...]) -> MonitorDemo:
     verdict, scaled, stride = diagnosis.verdict, diagnosis.scaled, max(1, len(run.time) // MAX_LINE_POINTS)
-    findings: list[str] = []
     alarm_time = float(verdict.time) if verdict.alarm else np.inf
     isolation_time = alarm_time + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
-    if verdict.alarm:
-        fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
-        findings = [fault, *verdict.evidence]
-    inconclusive = (
-        [f"did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}"] if diagnosis.inconclusive else []
-    )
-    if verdict.alarm and len(verdict.candidates) > 1:
-        inconclusive.append(f"not distinguished: {', '.join(verdict.candidates)}")
-    if not verdict.alarm:
-        inconclusive.insert(0, "no fault was detected, which does not prove that there is none")
     residuals = {
         "torque residual": _downsample_maxima(scaled.torque, stride),
         "tracking error": _downsample_maxima(scaled.tracking, stride),
@@ -179,11 +153,31 @@ def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: 
         alarm_time=alarm_time,
         joint=names.index(verdict.joint) if verdict.joint in names else None,
         isolation_time=np.inf if verdict.joint is None else isolation_time,
-        kind=verdict.kind,
-        classification_time=isolation_time if verdict.kind == "sensor" else isolation_time + CLASSIFICATION_TIME_S,
-        findings=tuple(findings),
-        inconclusive=tuple(inconclusive),
+        sentences=_write_sentences(diagnosis, onset, isolation_time, float(run.time[-1])),
     )
+
+
+def _write_sentences(diagnosis: Diagnosis, onset: float, isolation_time: float, end: float) -> tuple[tuple[float, str], ...]:
+    """Write what the monitor reports, each sentence with the time from which it is known, s."""
+    verdict = diagnosis.verdict
+    sentences: list[tuple[float, str]] = []
+    if verdict.alarm:
+        alarm_time = float(verdict.time)
+        delay_text = f"{1000 * (alarm_time - onset):.0f} ms after the fault"
+        when = delay_text if alarm_time >= onset else f"at {alarm_time:.3f} s, before any fault"
+        sentences.append((alarm_time, f"Alarm {when}."))
+        if verdict.joint is not None:
+            sentences.append((isolation_time, f"The monitor isolates {verdict.joint}."))
+        fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
+        known_from = isolation_time + (0.0 if verdict.kind == "sensor" else CLASSIFICATION_TIME_S)
+        sentences += [(known_from, f"{text.removesuffix('.')}.") for text in (fault, *verdict.evidence)]
+    else:
+        sentences.append((end, "No fault was detected, which does not prove that there is none."))
+    if diagnosis.inconclusive:
+        sentences.append((end, f"Did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}."))
+    if verdict.alarm and len(verdict.candidates) > 1:
+        sentences.append((end, f"Not distinguished: {', '.join(verdict.candidates)}."))
+    return tuple((min(time, end), text) for time, text in sentences)
 
 
 def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
@@ -193,78 +187,3 @@ def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:
     padded[: len(values)] = np.where(np.isfinite(values), values, -np.inf)
     maxima = padded.reshape(groups, stride, -1).max(axis=1)
     return np.where(np.isfinite(maxima), maxima, np.nan)
-
-
-# ---- drawing ---------------------------------------------------------------------------------------------------------
-
-
-def monitor_html(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
-    """Draw the residuals up to the current time, each in units of its threshold, and the findings of the monitor so far."""
-    end = float(demo.time[-1])
-    # Limited, because otherwise the page would be sent thirty times a second.
-    current = current if current >= end else end * np.floor(current / end * PLAYBACK_STEPS) / PLAYBACK_STEPS
-    panels = [
-        _draw_panel(quantity, demo, values, current, names)
-        for quantity, values in demo.residuals.items()
-        if np.isfinite(values).any()
-    ]
-    findings = demo.findings if current >= demo.classification_time else ()
-    lines = [*findings, *(demo.inconclusive if current >= end * (1 - 1e-9) else ())]
-    items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    legend = "Each line is a joint. Dashed: threshold; purple: onset of the fault; orange: alarm."
-    return (
-        f'<div class="hf-watch"{" data-alarm" if current >= demo.alarm_time else ""}>'
-        f'<strong class="hf-head">{escape(_describe_alarm(demo, names, current))}</strong><div class="hf-soft">{legend}</div>'
-        f"{''.join(panels)}<ul>{items}</ul></div>"
-    )
-
-
-def _describe_alarm(demo: MonitorDemo, names: tuple[str, ...], current: float) -> str:
-    """Describe the alarm, and the joint and the kind of fault that the monitor has found by the current time."""
-    if current < demo.alarm_time:
-        return "No alarm so far."
-    delay = demo.alarm_time - demo.onset
-    when = f"at {demo.alarm_time:.3f} s, before any fault" if delay < 0 else f"{1000 * delay:.0f} ms after the fault"
-    joint = "not identified"
-    if demo.joint is not None and current >= demo.isolation_time:
-        is_classified = current >= demo.classification_time and demo.kind != "unknown"
-        joint = names[demo.joint] + (f", {demo.kind}" if is_classified else "")
-    return f"Alarm {when}; joint: {joint}."
-
-
-def _draw_panel(quantity: str, demo: MonitorDemo, values: FloatArray, current: float, names: tuple[str, ...]) -> str:
-    end = float(demo.time[-1]) or 1.0
-    is_past = demo.time <= current
-    x = _PANEL_WIDTH_PX * demo.time / end
-    y = _PANEL_HEIGHT_PX - _PANEL_HEIGHT_PX * np.log(
-        np.clip(values, _MIN_DRAWN_RATIO, _MAX_DRAWN_RATIO) / _MIN_DRAWN_RATIO
-    ) / np.log(_MAX_DRAWN_RATIO / _MIN_DRAWN_RATIO)
-    bound = _PANEL_HEIGHT_PX - _PANEL_HEIGHT_PX * np.log(1 / _MIN_DRAWN_RATIO) / np.log(_MAX_DRAWN_RATIO / _MIN_DRAWN_RATIO)
-    lines = []
-    for column in range(values.shape[1]):
-        is_drawn = is_past & np.isfinite(values[:, column])
-        is_isolated = column == demo.joint and values.shape[1] > 1 and current >= demo.isolation_time
-        points = " ".join(
-            f"{point_x:.1f},{point_y:.1f}" for point_x, point_y in zip(x[is_drawn], y[is_drawn, column], strict=True)
-        )
-        lines.append((is_isolated, f'<polyline{" class=hf-named" if is_isolated else ""} points="{points}"/>'))
-    marks = [
-        f'<line class="{mark}" x1="{_PANEL_WIDTH_PX * mark_time / end:.1f}" x2="{_PANEL_WIDTH_PX * mark_time / end:.1f}" '
-        f'y1="0" y2="{_PANEL_HEIGHT_PX}"/>'
-        for mark, mark_time in (("hf-onset", demo.onset), ("hf-alarm", demo.alarm_time))
-        if mark_time <= min(current, end)
-    ]
-    exceeding = [
-        names[column]
-        for column in range(values.shape[1])
-        if values.shape[1] > 1 and np.nanmax(np.append(values[is_past, column], 0)) > 1
-    ]
-    label = f"{quantity} / threshold until {current:.2f} s; above it: {', '.join(exceeding) or 'none'}"
-    polylines = "".join(text for _, text in sorted(lines))
-    return (
-        f"<figure><figcaption>{escape(quantity)} / threshold</figcaption>"
-        f'<svg viewBox="0 0 {_PANEL_WIDTH_PX} {_PANEL_HEIGHT_PX}" role="img" '
-        f'aria-label="{escape(label, quote=True)}">{polylines}'
-        f'<line class="hf-bound" x1="0" x2="{_PANEL_WIDTH_PX}" y1="{bound:.1f}" y2="{bound:.1f}"/>{"".join(marks)}'
-        f'<text x="2" y="{bound - 2:.1f}">1</text></svg></figure>'
-    )

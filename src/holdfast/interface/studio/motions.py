@@ -10,7 +10,7 @@ import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
 from holdfast.model.arm.friction import Friction

@@ -17,7 +17,6 @@ from typing import IO, Any
 
 from holdfast.core.errors import HoldfastError
 from holdfast.interface.studio.state import State
-from holdfast.interface.studio.work import Cancelled
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
@@ -25,6 +24,10 @@ from holdfast.model.cell.cell import Cell
 Progress = Callable[[int, int], None]
 CANCEL_TIMEOUT_S = 2.0  # time that a cancelled request has before its process is killed, s
 _POLL_INTERVAL_S = 0.02  # interval of calls of ``check``, s
+
+
+class Cancelled(Exception):
+    """Raised inside a job whose answer nobody awaits any more."""
 
 
 class WorkerProcess:
@@ -136,7 +139,7 @@ def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> 
             return
 
 
-# ---- in the worker process ---------------------------------------------------------------------------------------
+# ---- in the worker process ------------------------------------------------------------------------------------------
 
 
 def main() -> None:
@@ -146,7 +149,7 @@ def main() -> None:
     arm, task, cell = pickle.load(requests)
 
     from holdfast.interface.studio.compute import JOB_FUNCTIONS
-    from holdfast.interface.studio.scene.machine import CompiledArm, describe_error
+    from holdfast.interface.studio.machine import CompiledArm, describe_error
 
     machine, pending = CompiledArm(arm, task, cell), queue.SimpleQueue[Any]()
     newest_cancelled = [0]  # number of the newest cancelled request

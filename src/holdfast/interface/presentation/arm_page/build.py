@@ -87,14 +87,45 @@ def build_page(
     if beside:
         options = "".join(f"<option>{escape(name)}</option>" for name in names)
         menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
+    return _join_page(sections, names, f"{arm.name}: which joint matters?", menu)
+
+
+def build_studio_page(
+    arm: Arm, q: ArrayLike, task: Task, studio: dict[str, Any], *, cell: Cell | None = None, mesh_files: bool = True
+) -> Html:
+    """Build the page of an arm that asks the server of the studio, with further steps.
+
+    Args:
+        arm: Arm to show.
+        q: (n,) first configuration, rad and m.
+        task: Task of the arm.
+        studio: ``StudioData`` of ``page/src/arm_page/answers.ts``.
+        cell: Objects around the arm.
+        mesh_files: Open the mesh files that the arm's file names.
+
+    Raises:
+        HoldfastError: The arm cannot be shown.
+    """
+    section = _build_section(arm, q, (), DEFAULT_LAWS, None, task, cell, False, studio=studio, mesh_files=mesh_files)
+    return _join_page([section], [arm.name], f"{arm.name}: studio", script="studio.js", connect=" connect-src 'self';")
+
+
+def _join_page(
+    sections: Sequence[_ArmSection],
+    names: Sequence[str],
+    title: str,
+    menu: str = "",
+    script: str = "arm_page.js",
+    connect: str = "",
+) -> Html:
+    """Join the sections of arms to a page with a script; ``connect`` is a further directive of its content security policy."""
     kernels = ",".join(f"{json.dumps(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
     style = read_template("viewer.css") + read_template("arm_page.css")
-    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template('arm_page.js').strip()}"]
+    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
-        f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
+        f"default-src 'none';{connect} script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
         "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
     )
-    title = f"{arm.name}: which joint matters?"
     return Html(
         '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
@@ -121,15 +152,18 @@ def _build_section(
     cell: Cell | None,
     plain: bool,
     hidden: bool = False,
+    studio: dict[str, Any] | None = None,
+    mesh_files: bool = True,
 ) -> _ArmSection:
     texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
     story = None if plain else simulate_story(arm, page_task, start, find_prepared(arm, page_task, start), laws, target)
     labels = label_joints(arm)
     argument, options, _ = arms.command_words(arm)
+    argument = argument if studio is None else studio["state"]["arm"]
     fractions = measure_fractions(arm, page_task, start[None])[0]
     bound = upper_bound(n=arm.n, m=page_task.m).bound if arm.n > page_task.m else 0.0
-    scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)))
+    scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)), mesh_files=mesh_files)
     data: dict[str, Any] = {
         "name": arm.name,
         "title": arm.title,
@@ -144,6 +178,8 @@ def _build_section(
         "story": None if story is None else asdict(story),
         "texts": texts,
     }
+    if studio is not None:
+        data["studio"] = studio
     bars = _write_bars(labels, fractions, bound, texts)
     steps = "".join(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'

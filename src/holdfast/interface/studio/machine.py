@@ -1,4 +1,4 @@
-"""Compiled arm of all windows: its kinematics, indices, objectives, clearance, and control laws."""
+"""Compiled arm of all pages: its indices, objectives, clearance, and control laws."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import casadi as ca
 import numpy as np
 
 from holdfast.control.laws.law import Law
@@ -16,21 +15,10 @@ from holdfast.core.formatting import format_number
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.body import stretched_length
-from holdfast.kernels.disk_cache import cached_kernel
-from holdfast.kernels.kernel import Kernel
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.kinematics.indices import susceptibility
 from holdfast.kinematics.indices.index import Index, by_name
-from holdfast.kinematics.indices.lost_directions import (
-    DirectionLoss,
-    Ellipsoid,
-    find_speed_losses,
-    manipulability_ellipsoid,
-    null_space_joint_rates,
-)
 from holdfast.kinematics.indices.objective import Objective
-from holdfast.kinematics.solvers.inverse_kinematics import solver
-from holdfast.model.arm import kinematics
 from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import pose_from_quaternion
@@ -38,8 +26,7 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 
-REACH_TOLERANCE = 1e-6  # tolerance of a dragged end effector, m and rad
-MAX_SLIDE_STEP = 0.05  # longest step along a self-motion, rad (and m)
+REACH_TOLERANCE = 1e-6  # distance of an end effector from a target that it has reached, m and rad
 
 
 @dataclass(frozen=True)
@@ -64,30 +51,25 @@ class JointBars:
 
 
 @dataclass(frozen=True)
-class LiveReading:
-    """All live values of one configuration.
+class NearestObject:
+    """Object of the cell that is nearest to the arm.
 
     Attributes:
-        bars: Bars of the index, or the reason why there are none.
-        weights: Bars of the susceptibility, or the reason why there are none.
-        healthy_ellipsoid, failed_ellipsoid: Ellipsoids of the healthy and of the failed arm.
-        failure_joints: Joints whose failure ``failed_ellipsoid`` and ``losses`` show: the failed ones, or the worst one if none
-            has failed.
-        losses: Directions in which speed is lost.
-        power_loss: Sentences on the beginning of the fall after a power loss.
+        text: Sentence about the distance.
+        name: Name of the object; empty if the cell is empty or invalid.
+        blocked: True if the arm is closer than the margin.
+        arm, object: Nearest points of the arm and of the object (3,), m; None without an object.
     """
 
-    bars: JointBars | str
-    weights: JointBars | str
-    healthy_ellipsoid: Ellipsoid
-    failed_ellipsoid: Ellipsoid
-    failure_joints: tuple[int, ...]
-    losses: list[DirectionLoss]
-    power_loss: str
+    text: str
+    name: str = ""
+    blocked: bool = False
+    arm: FloatArray | None = None
+    object: FloatArray | None = None
 
 
 class CompiledArm:
-    """Arm with its compiled functions, shared by all windows; safe for several threads."""
+    """Arm with its compiled functions, shared by all pages; safe for several threads."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
         self.arm, self.task, self.cell = arm, task, cell
@@ -99,13 +81,7 @@ class CompiledArm:
         self._clearance: Clearance | None = None
         self._compile_lock = threading.RLock()
 
-    # ---- geometry --------------------------------------------------------------------------------------------------
-
-    @cached_property
-    @cached_kernel
-    def _task_jacobian(self) -> Kernel:
-        q = kinematics.joint_symbols(self.arm)
-        return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])
+    # ---- geometry ---------------------------------------------------------------------------------------------------
 
     def tool_pose(self, q: FloatArray) -> FloatArray:
         """Return the tool pose (4, 4) in the world."""
@@ -135,7 +111,7 @@ class CompiledArm:
         assert self.cell is not None
         return self.cell.with_poses({name: pose_from_quaternion(numbers[:3], numbers[3:]) for name, numbers in moved})
 
-    # ---- effect of a failure ---------------------------------------------------------------------------------------
+    # ---- measures and laws ------------------------------------------------------------------------------------------
 
     def get_index(self, name: str) -> Index | str:
         """Return the index over single failures, or the reason why the arm has none."""
@@ -176,31 +152,8 @@ class CompiledArm:
                 self._laws[text] = LAW_REGISTRY.make(text, self.arm, option="law", task=self.task)
             return self._laws[text]
 
-    def evaluate_live_reading(
-        self,
-        q: FloatArray,
-        failed: Sequence[int],
-        index_name: str,
-        susceptibility_name: str,
-        powerless: tuple[int, ...] = (),
-        friction: float | None = None,
-    ) -> LiveReading:
-        """Evaluate all live values at q (n,), and with dry ``friction``, N m or N, for a power loss of the joints."""
-        bars = self._evaluate_index_bars(q, index_name)
-        failure_joints = tuple(failed) or (() if isinstance(bars, str) else (bars.worst,))
-        linear_jacobian = self.arm.jacobian(q)[:3]
-        task_jacobian = self._task_jacobian(q).reshape(self.task.m, self.arm.n)
-        return LiveReading(
-            bars,
-            self._evaluate_susceptibility_bars(q, susceptibility_name),
-            manipulability_ellipsoid(linear_jacobian),
-            manipulability_ellipsoid(linear_jacobian, failure_joints),
-            failure_joints,
-            find_speed_losses(task_jacobian, failure_joints),
-            self._describe_power_loss(q, powerless, friction),
-        )
-
-    def _describe_power_loss(self, q: FloatArray, powerless: tuple[int, ...], friction: float | None) -> str:
+    def describe_power_loss(self, q: FloatArray, powerless: tuple[int, ...], friction: float | None) -> str:
+        """Describe the beginning of the fall of joints at q (n,) with dry ``friction``, N m or N; empty without masses."""
         if not powerless or not self.has_masses:
             return ""
         try:
@@ -219,7 +172,8 @@ class CompiledArm:
             f"accelerates down with {format_number(acceleration, 3)} m/s^2: {early} mm after 50 ms, {late} mm after 100 ms."
         )
 
-    def _evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
+    def evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
+        """Evaluate an index at q (n,), or return the reason why the arm has none."""
         index = self.get_index(name)
         if isinstance(index, str):
             return index
@@ -228,25 +182,15 @@ class CompiledArm:
         singular = "" if evaluation.status == 0 else "the healthy arm is singular here"
         return JointBars(index.name, index.better, units, evaluation.by_failure, int(evaluation.worst), singular)
 
-    def _evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> JointBars | str:
+    def evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> JointBars | str:
+        """Evaluate a susceptibility at q (n,), or return the reason why the arm has none."""
         measure = self.get_susceptibility(name)
         if isinstance(measure, str):
             return measure
         values = np.abs(measure.by_joint(q))
         return JointBars(measure.name, "smaller", tuple(measure.joint_unit), values, int(np.nan_to_num(values).argmax()))
 
-    # ---- following the end effector ----------------------------------------------------------------------------------------
-
-    def solve_pose_near(self, q: FloatArray, pose: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, bool]:
-        """Find the configuration near q (n,) with the end effector at a pose (4, 4) and failed joints locked.
-
-        Returns:
-            Configuration (n,), and True if it reaches the pose. If not, it is the nearest one found, never farther than q.
-        """
-        ik_solver = solver(self.arm, self.task)
-        is_movable = np.ones(self.arm.n)
-        is_movable[list(failed)] = 0.0
-        return ik_solver.solve_near(q, pose, is_movable, REACH_TOLERANCE)
+    # ---- targets and objects ----------------------------------------------------------------------------------------
 
     def pose_error_norm(self, q: FloatArray, pose: FloatArray) -> float:
         """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
@@ -270,28 +214,26 @@ class CompiledArm:
         """True if the masses of all links are known, so that the arm can fall."""
         return all(link is not None for link in self.arm.links)
 
-    def step_self_motion(self, q: FloatArray, step: FloatArray, failed: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-        """Take one step along the self-motion of q (n,) in the direction nearest to ``step`` (n,), whose norm is its length.
-
-        Returns:
-            New configuration within the limits, and unit direction (n,) of the step; q itself and 0 if no step is possible.
-        """
-        length = float(np.linalg.norm(step))
-        basis = null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
-        projected = basis.T @ (basis @ step)
-        projected_norm = float(np.linalg.norm(projected))
-        if length == 0 or projected_norm < 1e-6 * length:
-            return q, np.zeros_like(q)
-        direction = projected / projected_norm
-        q_next, is_reached = self.solve_pose_near(q + length * direction, self.tool_pose(q), failed)
-        is_within_limits = bool(((q_next >= self.arm.lower) & (q_next <= self.arm.upper)).all())
-        if not is_reached or not is_within_limits or np.linalg.norm(q_next - q) > 2 * length:
-            return q, np.zeros_like(q)
-        return q_next, direction
-
-    def self_motion_directions(self, q: FloatArray, failed: Sequence[int]) -> FloatArray:
-        """Return unit directions (r, n) of the self-motions of q."""
-        return null_space_joint_rates(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
+    def find_nearest_object(self, q: FloatArray, moved: Sequence[tuple[str, Sequence[float]]]) -> NearestObject | None:
+        """Find the object of the cell that is nearest to the arm at q (n,); None without a cell."""
+        if self.cell is None:
+            return None
+        try:
+            clearance = self.get_clearance(moved)
+        except InputError as error:
+            return NearestObject(describe_error(error), blocked=True)
+        if clearance is None or clearance.obstacles is None or clearance.cell is None:
+            return NearestObject("The cell is empty.")
+        obstacles = clearance.obstacles
+        gap = obstacles.find_nearest_gap(q)
+        blocked, pair = bool(gap.margin < 0), obstacles.names[gap.pair]
+        if gap.distance < 0:
+            text = f"In collision: {pair}; the collision model of the arm is {-gap.distance:.3g} m inside."
+        else:
+            margin = f", closer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
+            text = f"Closest: {pair}, at least {gap.distance:.3g} m{margin}."
+        name = clearance.cell.objects[obstacles.pairs[gap.pair][1]].name
+        return NearestObject(text, name, blocked, np.asarray(gap.on_arm), np.asarray(gap.on_object))
 
 
 def describe_error(error: BaseException) -> str:
