@@ -15,7 +15,7 @@ export interface KinematicStep {
 
 export class ArmModel {
   readonly jointCount: number;
-  /** Number of joints minus the number of task rows. */
+  /** Number of joints minus the number of task rows, at least 0. */
   readonly redundancy: number;
   /** Limits of each joint, infinite where there is none. */
   readonly lower: Float64Array;
@@ -24,7 +24,7 @@ export class ArmModel {
   /** `taskRows` (m x 6) select from a twist in the world, linear part first. */
   constructor(readonly kernels: PrintedKernels, readonly joints: Joint[], readonly taskRows: number[][]) {
     this.jointCount = joints.length;
-    this.redundancy = joints.length - taskRows.length;
+    this.redundancy = Math.max(0, joints.length - taskRows.length);
     this.lower = Float64Array.from(joints, (joint) => joint.low ?? -Infinity);
     this.upper = Float64Array.from(joints, (joint) => joint.high ?? Infinity);
   }

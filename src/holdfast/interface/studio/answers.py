@@ -6,7 +6,7 @@ import binascii
 import dataclasses
 import re
 from base64 import b64decode
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -15,18 +15,19 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from holdfast.core.errors import InputError
+from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.extras import guard_imports
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY, Registry
+from holdfast.core.typing import T
 from holdfast.interface.studio import upload
-from holdfast.interface.studio.cloud import RegionCloud
-from holdfast.interface.studio.machine import REACH_TOLERANCE, CompiledArm
-from holdfast.interface.studio.monitor_demo import FAULT_PARAMETERS, LATEST_ONSET_S, MonitorDemo
-from holdfast.interface.studio.motions import PlayedMotion, read_motion
+from holdfast.interface.studio.machine import REACH_TOLERANCE, CompiledArm, describe_error
+from holdfast.interface.studio.monitor_demo import FAULT_PARAMETERS, LATEST_ONSET_S
+from holdfast.interface.studio.motions import read_motion
 from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import Progress, WorkerProcess
 from holdfast.model.arm.poses import pose_from_quaternion, pose_numbers
 
+LONG_QUESTIONS = ("best-worst", "laws", "fall", "region", "watch")  # jobs of the worker process, see compute.py
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 
@@ -86,7 +87,7 @@ class ServedArm:
         """Return the ``StudioData`` of the page with a token."""
         cell = self.machine.cell
         objects = [] if cell is None else [{"name": solid.name, "pose": solid.pose[:3].ravel().tolist()} for solid in cell]
-        return {"token": token, "state": to_plain(self.state), **self.choices, "objects": objects}
+        return {"token": token, "state": dataclasses.asdict(self.state), **self.choices, "objects": objects}
 
     def read_request(self, content: bytes) -> Request:
         """Read the body of a question, and check it against the arm.
@@ -122,37 +123,24 @@ class ServedArm:
         return request
 
 
-def to_plain(value: Any) -> Any:
-    """Convert a result to plain data for JSON: dataclasses to objects, arrays to lists, and infinite or missing numbers to null."""
-    if dataclasses.is_dataclass(value):
-        return {field.name: to_plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, list | tuple):
-        return [to_plain(item) for item in value]
-    if isinstance(value, float):
-        return value if np.isfinite(value) else None
-    return value
-
-
-# ---- questions that take milliseconds -------------------------------------------------------------------------------
-
-
 def answer_reading(served: ServedArm, request: Request) -> dict[str, Any]:
     """Evaluate the indices of each joint, the beginning of a fall, the nearest object, and a target nearby."""
-    state, machine = request.state, served.machine
-    q = np.array(state.q)
-    nearest = machine.find_nearest_object(q, state.moved)
-    nearest_points = None
-    if nearest is not None and nearest.arm is not None:
-        nearest_points = {name: to_plain(getattr(nearest, name)) for name in ("arm", "object", "name", "blocked")}
+    state, machine, q = request.state, served.machine, np.array(request.state.q)
+
+    def evaluate_or_explain(evaluate: Callable[..., T], *arguments: Any) -> T | str:
+        try:
+            return evaluate(*arguments)
+        except HoldfastError as error:
+            return describe_error(error)
+
+    nearest = evaluate_or_explain(machine.find_nearest_object, q, state.moved)
     return {
-        "index": to_plain(machine.evaluate_index_bars(q, state.index)),
-        "susceptibility": to_plain(machine.evaluate_susceptibility_bars(q, state.susceptibility)),
-        "powerLoss": machine.describe_power_loss(q, state.powerless, state.friction),
-        "clearance": "" if nearest is None else nearest.text,
-        "nearest": nearest_points,
-        "target": to_plain(pose_numbers(machine.tool_pose(machine.nearby_configuration(q)))),
+        "index": evaluate_or_explain(machine.evaluate_index_bars, q, state.index),
+        "susceptibility": evaluate_or_explain(machine.evaluate_susceptibility_bars, q, state.susceptibility),
+        "powerLoss": evaluate_or_explain(machine.describe_power_loss, q, state.powerless, state.friction),
+        "clearance": nearest if isinstance(nearest, str) else nearest[0],
+        "nearest": None if isinstance(nearest, str) else nearest[1],
+        "target": pose_numbers(machine.tool_pose(machine.nearby_configuration(q))),
         "command": state.to_command(),
     }
 
@@ -173,8 +161,6 @@ def answer_cell_file(served: ServedArm, request: Request) -> dict[str, Any]:
     """
     from holdfast.model.cell import cell_file
 
-    if served.machine.cell is None:
-        raise InputError("there is no cell to save; start the studio with --cell FILE")
     cell = served.machine.cell_with_moved(request.state.moved)
     name = f"{re.sub(r'[^A-Za-z0-9._-]+', '-', cell.name).strip('-.') or 'cell'}.yaml"
     command = replace(request.state, cell=name, moved=()).to_command()
@@ -194,7 +180,7 @@ def open_motion(served: ServedArm, request: Request) -> dict[str, Any]:
         motion = read_motion(arm, served.state.file)
     else:
         raise InputError("there is no motion; open a CSV file, or start the studio with --file")
-    return {"motion": to_plain(replace(motion, label=f"{motion.label}: {len(motion.time)} rows"))}
+    return {"motion": motion.to_plain() | {"label": f"{motion.label}: {len(motion.time)} rows"}}
 
 
 def decode_file(file: SentFile) -> bytes:
@@ -214,54 +200,15 @@ QUICK_ANSWERS: Mapping[str, Callable[[ServedArm, Request], Any]] = MappingProxyT
 )
 
 
-# ---- questions that take seconds ------------------------------------------------------------------------------------
-
-
-def answer_long(served: ServedArm, question: str, request: Request, check: Callable[[], None], progress: Progress) -> Any:
+def answer_in_worker(served: ServedArm, job: str, request: Request, check: Callable[[], None], progress: Progress) -> Any:
     """Answer a question in the worker process; see :meth:`holdfast.interface.studio.worker_process.WorkerProcess.run`.
 
     Raises:
         InputError: The end effector is already at the target.
     """
     state, machine = request.state, served.machine
-    if question == "laws" and state.target is not None:
+    if job == "laws" and state.target is not None:
         target = pose_from_quaternion(state.target[:3], state.target[3:])
         if machine.pose_error_norm(np.array(state.q), target) < REACH_TOLERANCE:
             raise InputError("the end effector is already at the target; drag the target away")
-    return LONG_ANSWERS[question](served.worker_process.run(question, state, check, progress))
-
-
-def describe_motions(motions: Sequence[PlayedMotion]) -> list[Any]:
-    """Return motions as plain data."""
-    return [to_plain(motion) for motion in motions]
-
-
-def describe_cloud(cloud: RegionCloud) -> dict[str, Any]:
-    """Return a cloud as plain data, with null as the configuration of a pose for which none was found."""
-    configurations = [q.tolist() if np.isfinite(q).all() else None for q in cloud.q]
-    return {**to_plain(cloud), "q": configurations}
-
-
-def describe_watch(demo: MonitorDemo) -> dict[str, Any]:
-    """Return a motion with a fault as plain data, with sentences that accumulate over the time of the motion."""
-    isolated = None if demo.joint is None else {"joint": demo.joint, "from": to_plain(demo.isolation_time)}
-    return {
-        "motion": to_plain(demo.motion),
-        "time": to_plain(demo.time),
-        "signals": [{"label": label, "values": to_plain(values)} for label, values in demo.residuals.items()],
-        "onset": to_plain(demo.onset),
-        "alarm": to_plain(demo.alarm_time),
-        "isolated": isolated,
-        "sentences": [{"from": time, "text": text} for time, text in demo.sentences],
-    }
-
-
-LONG_ANSWERS: Mapping[str, Callable[[Any], Any]] = MappingProxyType(
-    {
-        "best-worst": to_plain,
-        "laws": describe_motions,
-        "fall": describe_motions,
-        "region": describe_cloud,
-        "watch": describe_watch,
-    }
-)
+    return served.worker_process.run(job, state, check, progress)

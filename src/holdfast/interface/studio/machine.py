@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law
 from holdfast.core.caching import cached_property
-from holdfast.core.errors import ArmError, HoldfastError, InputError, TaskError
+from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.formatting import format_number
-from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY
-from holdfast.core.typing import FloatArray
+from holdfast.core.registry import LAW_REGISTRY
+from holdfast.core.typing import FloatArray, T
 from holdfast.interface.presentation.arm.body import stretched_length
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.kinematics.indices import susceptibility
 from holdfast.kinematics.indices.index import Index, by_name
-from holdfast.kinematics.indices.objective import Objective
 from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import pose_from_quaternion
@@ -29,57 +29,19 @@ from holdfast.model.collision.clearance import Clearance
 REACH_TOLERANCE = 1e-6  # distance of an end effector from a target that it has reached, m and rad
 
 
-@dataclass(frozen=True)
-class JointBars:
-    """One number per joint.
-
-    Attributes:
-        title: Name of the measured quantity.
-        better: ``larger`` or ``smaller``.
-        unit: Unit of the values; several units where joints differ.
-        values: (n,) values; NaN or infinite where there is none.
-        worst: Index of the joint with the worst failure, from 0.
-        status: Sentence about a special case; else empty.
-    """
-
-    title: str
-    better: str
-    unit: tuple[str, ...]
-    values: FloatArray
-    worst: int
-    status: str = ""
-
-
-@dataclass(frozen=True)
-class NearestObject:
-    """Object of the cell that is nearest to the arm.
-
-    Attributes:
-        text: Sentence about the distance.
-        name: Name of the object; empty if the cell is empty or invalid.
-        blocked: True if the arm is closer than the margin.
-        arm, object: Nearest points of the arm and of the object (3,), m; None without an object.
-    """
-
-    text: str
-    name: str = ""
-    blocked: bool = False
-    arm: FloatArray | None = None
-    object: FloatArray | None = None
-
-
 class CompiledArm:
     """Arm with its compiled functions, shared by all pages; safe for several threads."""
 
     def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
         self.arm, self.task, self.cell = arm, task, cell
-        self._indices: dict[str, Index | str] = {}
-        self._susceptibilities: dict[str, susceptibility.Susceptibility | str] = {}
-        self._objectives: dict[str, tuple[Objective, Objective] | str] = {}
-        self._laws: dict[str, Law] = {}
-        self._tool_drops: dict[tuple[int, ...], susceptibility.Susceptibility] = {}
-        self._clearance: Clearance | None = None
+        self._compiled: dict[object, Any] = {}
         self._compile_lock = threading.RLock()
+
+    def _compile_once(self, key: object, compile_value: Callable[[], T]) -> T:
+        with self._compile_lock:
+            if key not in self._compiled:
+                self._compiled[key] = compile_value()
+            return cast(T, self._compiled[key])
 
     # ---- geometry ---------------------------------------------------------------------------------------------------
 
@@ -100,67 +62,53 @@ class CompiledArm:
         """
         if self.cell is None:
             return None
-        with self._compile_lock:
-            if self._clearance is None:
-                self._clearance = Clearance.by_default(self.arm, self.cell)
-            assert self._clearance is not None
-            return self._clearance.with_cell(self.cell_with_moved(moved)) if moved else self._clearance
+        clearance = self._compile_once("clearance", lambda: Clearance.by_default(self.arm, self.cell))
+        return clearance.with_cell(self.cell_with_moved(moved)) if moved and clearance is not None else clearance
 
     def cell_with_moved(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Cell:
-        """Return the cell, of an arm that has one, with the objects in their moved poses."""
-        assert self.cell is not None
+        """Return the cell with the objects in their moved poses.
+
+        Raises:
+            InputError: There is no cell.
+        """
+        if self.cell is None:
+            raise InputError("there is no cell; start the studio with --cell FILE")
         return self.cell.with_poses({name: pose_from_quaternion(numbers[:3], numbers[3:]) for name, numbers in moved})
 
     # ---- measures and laws ------------------------------------------------------------------------------------------
 
-    def get_index(self, name: str) -> Index | str:
-        """Return the index over single failures, or the reason why the arm has none."""
-        with self._compile_lock:
-            if name not in self._indices:
-                try:
-                    self._indices[name] = by_name(name, self.arm, self.task)
-                except (InputError, TaskError) as error:
-                    self._indices[name] = str(error)
-            return self._indices[name]
+    def get_index(self, name: str) -> Index:
+        """Return the index over single failures.
 
-    def get_susceptibility(self, name: str) -> susceptibility.Susceptibility | str:
-        """Return the susceptibility, or the reason why the arm has none."""
-        with self._compile_lock:
-            if name not in self._susceptibilities:
-                try:
-                    self._susceptibilities[name] = susceptibility.by_name(name, self.arm)
-                except ArmError as error:
-                    self._susceptibilities[name] = str(error)
-            return self._susceptibilities[name]
+        Raises:
+            HoldfastError: The arm has no such index.
+        """
+        return self._compile_once(("index", name), lambda: by_name(name, self.arm, self.task))
 
-    def get_objectives(self, name: str) -> tuple[Objective, Objective] | str:
-        """Return the objectives of the best and the worst configuration, or the reason why there are none."""
-        with self._compile_lock:
-            if name not in self._objectives:
-                measure = self.get_index(name) if INDEX_REGISTRY.covers(name) else self.get_susceptibility(name)
-                self._objectives[name] = measure if isinstance(measure, str) else (measure, measure.reversed())
-            return self._objectives[name]
+    def get_susceptibility(self, name: str) -> susceptibility.Susceptibility:
+        """Return the susceptibility.
+
+        Raises:
+            HoldfastError: The arm has no such susceptibility.
+        """
+        return self._compile_once(("susceptibility", name), lambda: susceptibility.by_name(name, self.arm))
 
     def get_law(self, text: str) -> Law:
-        """Return the control law with the label ``name`` or ``name:value``; it is compiled once.
+        """Return the control law with the label ``name`` or ``name:value``.
 
         Raises:
             InputError: The law is unknown, its setting is invalid, or it has no setting.
         """
-        with self._compile_lock:
-            if text not in self._laws:
-                self._laws[text] = LAW_REGISTRY.make(text, self.arm, option="law", task=self.task)
-            return self._laws[text]
+        law: Law = self._compile_once(("law", text), lambda: LAW_REGISTRY.make(text, self.arm, option="law", task=self.task))
+        return law
 
     def describe_power_loss(self, q: FloatArray, powerless: tuple[int, ...], friction: float | None) -> str:
         """Describe the beginning of the fall of joints at q (n,) with dry ``friction``, N m or N; empty without masses."""
         if not powerless or not self.has_masses:
             return ""
         try:
-            with self._compile_lock:
-                if powerless not in self._tool_drops:
-                    self._tool_drops[powerless] = susceptibility.tool_drop(self.arm, powerless)
-            acceleration = float(self._tool_drops[powerless](q))
+            tool_drop = self._compile_once(powerless, lambda: susceptibility.tool_drop(self.arm, powerless))
+            acceleration = float(tool_drop(q))
             check = holds(self.arm, q, free=powerless, friction=Friction(coulomb=friction))
         except HoldfastError as error:
             return str(error)
@@ -172,23 +120,34 @@ class CompiledArm:
             f"accelerates down with {format_number(acceleration, 3)} m/s^2: {early} mm after 50 ms, {late} mm after 100 ms."
         )
 
-    def evaluate_index_bars(self, q: FloatArray, name: str) -> JointBars | str:
-        """Evaluate an index at q (n,), or return the reason why the arm has none."""
-        index = self.get_index(name)
-        if isinstance(index, str):
-            return index
-        evaluation = index.evaluate(q)
-        units = (index.unit,) * self.arm.n
-        singular = "" if evaluation.status == 0 else "the healthy arm is singular here"
-        return JointBars(index.name, index.better, units, evaluation.by_failure, int(evaluation.worst), singular)
+    def evaluate_index_bars(self, q: FloatArray, name: str) -> dict[str, Any]:
+        """Evaluate an index at q (n,) for the lock of each joint, as ``JointBars``.
 
-    def evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> JointBars | str:
-        """Evaluate a susceptibility at q (n,), or return the reason why the arm has none."""
+        Raises:
+            HoldfastError: The arm has no such index.
+        """
+        index = self.get_index(name)
+        evaluation = index.evaluate(q)
+        return {
+            "title": index.name,
+            "better": index.better,
+            "unit": [index.unit] * self.arm.n,
+            "values": to_plain(evaluation.by_failure),
+            "worst": int(evaluation.worst),
+            "status": "" if evaluation.status == 0 else "the healthy arm is singular here",
+        }
+
+    def evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> dict[str, Any]:
+        """Evaluate a susceptibility at q (n,) for the torque loss of each joint, as ``JointBars``.
+
+        Raises:
+            HoldfastError: The arm has no such susceptibility.
+        """
         measure = self.get_susceptibility(name)
-        if isinstance(measure, str):
-            return measure
         values = np.abs(measure.by_joint(q))
-        return JointBars(measure.name, "smaller", tuple(measure.joint_unit), values, int(np.nan_to_num(values).argmax()))
+        worst = int(np.nan_to_num(values).argmax())
+        texts = {"title": measure.name, "better": "smaller", "unit": list(measure.joint_unit), "status": ""}
+        return {**texts, "values": to_plain(values), "worst": worst}
 
     # ---- targets and objects ----------------------------------------------------------------------------------------
 
@@ -214,16 +173,18 @@ class CompiledArm:
         """True if the masses of all links are known, so that the arm can fall."""
         return all(link is not None for link in self.arm.links)
 
-    def find_nearest_object(self, q: FloatArray, moved: Sequence[tuple[str, Sequence[float]]]) -> NearestObject | None:
-        """Find the object of the cell that is nearest to the arm at q (n,); None without a cell."""
-        if self.cell is None:
-            return None
-        try:
-            clearance = self.get_clearance(moved)
-        except InputError as error:
-            return NearestObject(describe_error(error), blocked=True)
+    def find_nearest_object(
+        self, q: FloatArray, moved: Sequence[tuple[str, Sequence[float]]]
+    ) -> tuple[str, dict[str, Any] | None]:
+        """Find the object of the cell that is nearest to the arm at q (n,).
+
+        Returns:
+            Sentence about the distance, empty without a cell. None without an object; else the nearest points ``arm`` and
+            ``object`` (3,), m, the ``name`` of the object, and whether it is closer than the margin (``blocked``).
+        """
+        clearance = self.get_clearance(moved)
         if clearance is None or clearance.obstacles is None or clearance.cell is None:
-            return NearestObject("The cell is empty.")
+            return "" if self.cell is None else "The cell is empty.", None
         obstacles = clearance.obstacles
         gap = obstacles.find_nearest_gap(q)
         blocked, pair = bool(gap.margin < 0), obstacles.names[gap.pair]
@@ -233,7 +194,15 @@ class CompiledArm:
             margin = f", closer than the margin of {gap.distance - gap.margin:.3g} m" if blocked else ""
             text = f"Closest: {pair}, at least {gap.distance:.3g} m{margin}."
         name = clearance.cell.objects[obstacles.pairs[gap.pair][1]].name
-        return NearestObject(text, name, blocked, np.asarray(gap.on_arm), np.asarray(gap.on_object))
+        return text, {"arm": to_plain(gap.on_arm), "object": to_plain(gap.on_object), "name": name, "blocked": blocked}
+
+
+def to_plain(values: ArrayLike) -> list[Any]:
+    """Convert an array to lists for JSON, with null for infinite numbers and NaN."""
+    array = np.asarray(values, dtype=np.float64)
+    plain = array.astype(object)
+    plain[~np.isfinite(array)] = None
+    return cast(list[Any], plain.tolist())
 
 
 def describe_error(error: BaseException) -> str:

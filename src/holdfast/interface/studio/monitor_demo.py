@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.interface.studio.machine import CompiledArm
+from holdfast.interface.studio.machine import CompiledArm, to_plain
 from holdfast.interface.studio.motions import MOTION_SAMPLES, PlayedMotion
 from holdfast.interface.studio.state import State
 from holdfast.model.arm.poses import pose_from_quaternion
@@ -48,35 +47,10 @@ THRESHOLD_FACTOR = 2.0
 MAX_LINE_POINTS = 150  # points of the line of a residual
 
 
-@dataclass(frozen=True, kw_only=True)
-class MonitorDemo:
-    """Motion with a fault, and the output of the monitor.
-
-    Attributes:
-        motion: Motion of the arm with its fault.
-        time: (T,) times, s.
-        residuals: Residuals by signal, in units of their thresholds: (T, n), or (T, 1) for the tool.
-        onset: Onset of the fault, s; infinite without a fault.
-        alarm_time: Time of the alarm, s; infinite without an alarm.
-        joint: Index of the isolated joint, from 0; None without one.
-        isolation_time: Time of the isolation, s; infinite without an isolated joint.
-        sentences: Times, s, and the sentences of the monitor that are known from then on.
-    """
-
-    motion: PlayedMotion
-    time: FloatArray
-    residuals: Mapping[str, FloatArray]
-    onset: float
-    alarm_time: float
-    joint: int | None
-    isolation_time: float
-    sentences: tuple[tuple[float, str], ...]
-
-
 _last_thresholds: dict[object, Bounds] = {}  # of the last request, so that another fault needs one motion and not five
 
 
-def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> MonitorDemo:
+def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> dict[str, Any]:
     """Simulate a motion to the target under the first law during which a joint fails, and run a monitor on its log.
 
     The controller does not respond to the fault. Masses and friction of the simulated robot are up to 20 % off the arm's model,
@@ -86,6 +60,9 @@ def simulate_monitor_demo(machine: CompiledArm, state: State, progress: Callable
         machine: Compiled arm.
         state: State with the configuration, the target, the law, and the fault (kind, joint and time).
         progress: Function that is called with (done, total) motions, and raises an exception to cancel.
+
+    Returns:
+        ``Watch`` of ``page/src/arm_page/answers.ts``: residuals in units of their thresholds, and sentences with their times.
 
     Raises:
         InputError: There is no target, or no such fault.
@@ -134,30 +111,31 @@ def _to_task_target(machine: CompiledArm, pose: FloatArray) -> FloatArray:
     return pose if machine.task.angular else np.asarray(machine.task.rows[:, :3] @ pose[:3, 3])
 
 
-def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: tuple[str, ...]) -> MonitorDemo:
-    verdict, scaled, stride = diagnosis.verdict, diagnosis.scaled, max(1, len(run.time) // MAX_LINE_POINTS)
-    alarm_time = float(verdict.time) if verdict.alarm else np.inf
-    isolation_time = alarm_time + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
-    residuals = {
-        "torque residual": _downsample_maxima(scaled.torque, stride),
-        "tracking error": _downsample_maxima(scaled.tracking, stride),
+def _evaluate_monitor(run: FaultRun, diagnosis: Diagnosis, onset: float, names: tuple[str, ...]) -> dict[str, Any]:
+    verdict, scaled, end = diagnosis.verdict, diagnosis.scaled, float(run.time[-1])
+    isolation_time = float(verdict.time) + (SENSOR_REVISION_TIME_S if verdict.kind == "sensor" else ISOLATION_TIME_S)
+    stride, motion_stride = max(1, len(run.time) // MAX_LINE_POINTS), max(1, len(run.time) // (4 * MOTION_SAMPLES))
+    signals = {"torque residual": scaled.torque, "tracking error": scaled.tracking, "tool-pose residual": scaled.tool[:, None]}
+    is_isolated = verdict.alarm and verdict.joint in names
+    label = "the arm with the fault, no response"
+    return {
+        "motion": PlayedMotion(label, run.time[::motion_stride], "s", run.q[::motion_stride]).to_plain(),
+        "time": run.time[::stride].tolist(),
+        "signals": [
+            {"label": name, "values": to_plain(_downsample_maxima(values, stride))}
+            for name, values in signals.items()
+            if np.isfinite(values).any()
+        ],
+        "onset": onset if np.isfinite(onset) else None,
+        "alarm": float(verdict.time) if verdict.alarm else None,
+        "isolated": {"joint": names.index(verdict.joint), "from": isolation_time} if is_isolated else None,
+        "sentences": [
+            {"from": min(time, end), "text": text} for time, text in _write_sentences(diagnosis, onset, isolation_time, end)
+        ],
     }
-    if np.isfinite(scaled.tool).any():
-        residuals["tool-pose residual"] = _downsample_maxima(scaled.tool[:, None], stride)
-    motion_samples = slice(None, None, max(1, len(run.time) // (4 * MOTION_SAMPLES)))
-    return MonitorDemo(
-        motion=PlayedMotion("the arm with the fault, no response", run.time[motion_samples], "s", run.q[motion_samples]),
-        time=run.time[::stride],
-        residuals=residuals,
-        onset=onset,
-        alarm_time=alarm_time,
-        joint=names.index(verdict.joint) if verdict.joint in names else None,
-        isolation_time=np.inf if verdict.joint is None else isolation_time,
-        sentences=_write_sentences(diagnosis, onset, isolation_time, float(run.time[-1])),
-    )
 
 
-def _write_sentences(diagnosis: Diagnosis, onset: float, isolation_time: float, end: float) -> tuple[tuple[float, str], ...]:
+def _write_sentences(diagnosis: Diagnosis, onset: float, isolation_time: float, end: float) -> list[tuple[float, str]]:
     """Write what the monitor reports, each sentence with the time from which it is known, s."""
     verdict = diagnosis.verdict
     sentences: list[tuple[float, str]] = []
@@ -170,14 +148,17 @@ def _write_sentences(diagnosis: Diagnosis, onset: float, isolation_time: float, 
             sentences.append((isolation_time, f"The monitor isolates {verdict.joint}."))
         fault = diagnosis.describe()[0].partition(": ")[2].removesuffix(".")
         known_from = isolation_time + (0.0 if verdict.kind == "sensor" else CLASSIFICATION_TIME_S)
-        sentences += [(known_from, f"{text.removesuffix('.')}.") for text in (fault, *verdict.evidence)]
+        names = tuple(diagnosis.arm.joint_names)
+        for text in (fault, *verdict.evidence):
+            start = text[:1] if text.startswith(names) else text[:1].upper()
+            sentences.append((known_from, f"{start}{text[1:].removesuffix('.')}."))
     else:
         sentences.append((end, "No fault was detected, which does not prove that there is none."))
     if diagnosis.inconclusive:
         sentences.append((end, f"Did not move enough for a diagnosis: {', '.join(diagnosis.inconclusive)}."))
     if verdict.alarm and len(verdict.candidates) > 1:
         sentences.append((end, f"Not distinguished: {', '.join(verdict.candidates)}."))
-    return tuple((min(time, end), text) for time, text in sentences)
+    return sentences
 
 
 def _downsample_maxima(values: FloatArray, stride: int) -> FloatArray:

@@ -21,7 +21,7 @@ from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 from holdfast.interface.presentation.arm_page.build import build_studio_page
 from holdfast.interface.studio import upload
-from holdfast.interface.studio.answers import LONG_ANSWERS, QUICK_ANSWERS, Request, ServedArm, answer_long, decode_file
+from holdfast.interface.studio.answers import LONG_QUESTIONS, QUICK_ANSWERS, Request, ServedArm, answer_in_worker, decode_file
 from holdfast.interface.studio.machine import CompiledArm, describe_error
 from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import Cancelled
@@ -308,7 +308,7 @@ class _Handler(BaseHTTPRequestHandler):
             self._send_error(403, "This page was served by an earlier studio; load it again.")
         elif body_length < 0 or body_length > MAX_BODY_BYTES:
             self._send_error(413, f"The question is too large; at most {MAX_BODY_BYTES >> 20} MiB can be sent.")
-        elif not self._refuse_unknown(number, rest.startswith("answer/") and question in {*QUICK_ANSWERS, *LONG_ANSWERS}):
+        elif not self._refuse_unknown(number, rest.startswith("answer/") and question in {*QUICK_ANSWERS, *LONG_QUESTIONS}):
             served = self._studio.find_arm(number)
             assert served is not None
             self._answer(served, question, body)
@@ -317,16 +317,16 @@ class _Handler(BaseHTTPRequestHandler):
         """Return the body of an admissible length, or discard it."""
         if length <= MAX_BODY_BYTES:
             return self.rfile.read(max(length, 0))
-        for _ in range(0, min(length, _MAX_DISCARDED_BYTES), 1 << 20):
-            if not self.rfile.read(min(length, 1 << 20)):
-                break
+        remaining = min(length, _MAX_DISCARDED_BYTES)
+        while remaining > 0 and self.rfile.read(min(remaining, 1 << 20)):
+            remaining -= 1 << 20
         return b""
 
     def _answer(self, served: ServedArm, question: str, body: bytes) -> None:
         try:
             request = served.read_request(body)
-            if question in LONG_ANSWERS:
-                answer = answer_long(served, question, request, self._check_connection, self._send_progress)
+            if question in LONG_QUESTIONS:
+                answer = answer_in_worker(served, question, request, self._check_connection, self._send_progress)
             elif question == "open" and request.file is not None and upload.detect_file_kind(request.file.name) == "arm":
                 answer = {"address": self._open_arm(request.file.name, decode_file(request.file))}
             else:

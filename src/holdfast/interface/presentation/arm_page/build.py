@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 from base64 import b64encode
 from collections.abc import Sequence
@@ -25,6 +24,7 @@ from holdfast.interface.presentation.arm_page.phrases import format_percent, lab
 from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
 from holdfast.interface.presentation.arm_page.start import choose_start, find_prepared, measure_fractions, simulate_story
 from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
+from holdfast.kernels.disk_cache import cached_json
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
@@ -119,7 +119,7 @@ def _join_page(
     connect: str = "",
 ) -> Html:
     """Join the sections of arms to a page with a script; ``connect`` is a further directive of its content security policy."""
-    kernels = ",".join(f"{json.dumps(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
+    kernels = ",".join(f"{to_script_json(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
     style = read_template("viewer.css") + read_template("arm_page.css")
     scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
@@ -157,7 +157,8 @@ def _build_section(
 ) -> _ArmSection:
     texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
-    story = None if plain else simulate_story(arm, page_task, start, find_prepared(arm, page_task, start), laws, target)
+    given_target = None if target is None else np.asarray(target, dtype=np.float64).tolist()
+    story = None if plain else _find_story(arm, page_task, start.tolist(), list(laws), given_target)
     labels = label_joints(arm)
     argument, options, _ = arms.command_words(arm)
     argument = argument if studio is None else studio["state"]["arm"]
@@ -175,7 +176,7 @@ def _build_section(
         "positionTask": default_path_task(arm, oriented=False),
         "bound": bound,
         "gravity": round_to_seven_digits(arm.gravity),
-        "story": None if story is None else asdict(story),
+        "story": story,
         "texts": texts,
     }
     if studio is not None:
@@ -195,7 +196,15 @@ def _build_section(
         f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
         f'<script type="application/json" class="arm-data">{to_script_json(data)}</script>\n</section>'
     )
-    return _ArmSection(html, print_page_kernels(arm, page_task, laws))
+    return _ArmSection(html, print_page_kernels(arm, page_task, () if story is None else laws))
+
+
+@cached_json
+def _find_story(arm: Arm, task: Task, start: list[float], laws: list[str], target: list[float] | None) -> dict[str, Any] | None:
+    """Simulate the story of an arm, which takes a second, once for each start."""
+    q = np.array(start)
+    story = simulate_story(arm, task, q, find_prepared(arm, task, q), laws, target)
+    return None if story is None else asdict(story)
 
 
 def _write_python_arm(arm: Arm, argument: str) -> str:

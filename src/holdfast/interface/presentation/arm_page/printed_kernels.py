@@ -26,7 +26,7 @@ def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinver
     Its value is a ``PrintedKernels`` of ``page/src/arm_page/data.ts``, which states the inputs and outputs of each kernel.
 
     Args:
-        arm: The arm, which has at least as many joints as the task has rows.
+        arm: The arm.
         task: Task of the page, for the null space and the inverse kinematics.
         laws: Labels of control laws, which move the tool point of the arm; none for an arm with too few joints for that.
     """
@@ -57,11 +57,13 @@ def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
 
 
 def _null_space_basis(arm: Arm, task: Task, q: SX) -> SX:
-    """Return an orthonormal basis (n, n - m) of the null space of the task Jacobian, which is empty for n = m."""
+    """Return an orthonormal basis (n, n - m) of the null space of the task Jacobian, which is empty for n <= m."""
+    if arm.n <= task.m:
+        return ca.SX(arm.n, 0)
     # All six rows have the same null space in every frame, and one frame has the fewest operations.
     jacobian = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
     basis = factor_householder(jacobian).null_space_basis()
-    return ca.vertcat(*[ca.horzcat(*row) for row in basis]) if arm.n > task.m else ca.SX(arm.n, 0)
+    return ca.vertcat(*[ca.horzcat(*row) for row in basis])
 
 
 def _inverse_kinematics_program(arm: Arm, task: Task, q: SX) -> Program:
