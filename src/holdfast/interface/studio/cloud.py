@@ -19,7 +19,7 @@ from holdfast.studies.assessment.run import assess, load
 MAX_POINTS = 2500  # largest number of drawn points
 REGION_POSES = 1200  # number of poses in a region around the end effector
 _MAX_TURN_RAD = np.radians(30)  # of the orientations in such a region
-_GREY = 150  # of a pose without a configuration, 0 to 255
+_GREY_LEVEL = 150  # colour of a pose without a configuration, 0 to 255
 
 
 def find_region_cloud(machine: CompiledArm, state: State, progress: Callable[[int, int], None]) -> dict[str, Any]:
@@ -62,7 +62,7 @@ def make_cloud(assessment: Assessment, label: str) -> dict[str, Any]:
         q, values, has_configuration = q[has_configuration], values[has_configuration], has_configuration[has_configuration]
         points = assessment.arm.forward_kinematics(q)[:, :3, 3] if len(q) else np.zeros((0, 3))
     scale = Scale.from_values(values[has_configuration], smaller_is_better=assessment.index.better == "smaller")
-    colors = np.full((len(q), 3), _GREY, dtype=np.uint8)
+    colors = np.full((len(q), 3), _GREY_LEVEL, dtype=np.uint8)
     if has_configuration.any():
         colors[has_configuration] = (255 * scale.colors(values[has_configuration])[:, :3]).astype(np.uint8)
     return {

@@ -37,7 +37,7 @@ MAX_BODY_BYTES = 6 << 20  # of a question: a file of 4 MiB in base64, and a view
 MAX_UPLOADED_ARMS = 8  # arms that visitors opened; a further one replaces the oldest
 _MAX_DISCARDED_BYTES = 64 << 20  # of a body that is too large; a browser reads the refusal only after it has sent the body
 _SOCKET_TIMEOUT_S = 30.0  # longest silence of a client in the middle of a request
-_HEADERS = {
+_SECURITY_HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -200,7 +200,7 @@ def _is_safe_host_name(name: str, served: str) -> bool:
         return is_exposed and name in (socket.gethostname().lower(), f"{socket.gethostname()}.local".lower())
 
 
-class _Server(ThreadingHTTPServer):
+class _StudioServer(ThreadingHTTPServer):
     """Server that answers each request in its own thread."""
 
     daemon_threads = True
@@ -215,13 +215,13 @@ class _Server(ThreadingHTTPServer):
             super().handle_error(request, client_address)
 
 
-class _Server6(_Server):
+class _StudioServer6(_StudioServer):
     """Server on an address of IPv6."""
 
     address_family = socket.AF_INET6
 
 
-def _start_server(studio: Studio, host: str, port: int) -> _Server:
+def _start_server(studio: Studio, host: str, port: int) -> _StudioServer:
     """Start a server in its own thread.
 
     Raises:
@@ -231,7 +231,7 @@ def _start_server(studio: Studio, host: str, port: int) -> _Server:
         raise InputError(f"port {port} is not a port; give a number from 0 (any that is free) to 65535")
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-        server = (_Server6 if family == socket.AF_INET6 else _Server)((host, port), _Handler)
+        server = (_StudioServer6 if family == socket.AF_INET6 else _StudioServer)((host, port), _Handler)
     except socket.gaierror as error:
         raise InputError(f"host '{host}' is not known; give an address of this machine, such as {LOOPBACK_HOST}") from error
     except OSError as error:
@@ -252,7 +252,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     @property
     def _studio(self) -> Studio:
-        return cast(_Server, self.server).studio
+        return cast(_StudioServer, self.server).studio
 
     def log_message(self, format: str, *args: Any) -> None:
         del format, args
@@ -372,7 +372,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _send(self, status: int, content_type: str, content: bytes) -> None:
         self.send_response(status)
-        for name, value in {"Content-Type": content_type, **_HEADERS}.items():
+        for name, value in {"Content-Type": content_type, **_SECURITY_HEADERS}.items():
             self.send_header(name, value)
         self.end_headers()
         self.wfile.write(content)
