@@ -36,6 +36,11 @@ def required(sentence: str) -> None:
     (pytest.fail if os.environ.get("HOLDFAST_REQUIRE_BROWSER") == "1" else pytest.skip)(sentence)
 
 
+def path() -> str | None:
+    """The system's Chromium; none where Playwright has its own."""
+    return next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))), None)
+
+
 @contextmanager
 def opened(missing: Callable[[str], object] = sys.exit, scenes: bool = False) -> Iterator[Browser]:
     """A headless Chromium: the system's, else the one that Playwright has downloaded.
@@ -46,10 +51,9 @@ def opened(missing: Callable[[str], object] = sys.exit, scenes: bool = False) ->
     """
     from playwright.sync_api import Error, sync_playwright
 
-    path = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))), None)
     with sync_playwright() as playwright:
         try:
-            browser = playwright.chromium.launch(executable_path=path, args=_FLAGS + (_SCENES if scenes else _FLAT))
+            browser = playwright.chromium.launch(executable_path=path(), args=_FLAGS + (_SCENES if scenes else _FLAT))
         except Error as error:
             why = " ".join(error.message.split())[:160]
             missing(f"{NONE}: 'apt-get install chromium', or 'playwright install --with-deps chromium' ({why})")

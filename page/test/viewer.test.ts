@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { between, frames } from "../src/viewer/algebra";
 import { Camera, project } from "../src/viewer/camera";
+import { corners, hull } from "../src/viewer/hulls";
 import type { Scene, Vector } from "../src/viewer/scene";
 import { mesh, tube, type Triangles } from "../src/viewer/shapes";
 import { cell, edges } from "../src/viewer/things";
@@ -64,6 +65,31 @@ describe("the view", () => {
     const shape = mesh({ low: [1, 1, 1], side: 2, points, faces: encoded([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]) });
     expect(volume(shape)).toBeCloseTo(8 / 6, 5);
     expect([...shape.subarray(3, 6)]).toEqual([0, 0, -1]);
+  });
+
+  it("has hulls that hold every point, and no corner that another would replace", () => {
+    const points = Array.from({ length: 300 }, (_, k) => [Math.sin(k * k), Math.cos(7 * k) + Math.sin(k * k) / 3]);
+    const outline = hull([...points, ...points]);
+    const turn = (a: number[], b: number[], c: number[]): number => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    outline.forEach((corner, k) => {
+      const next = outline[(k + 1) % outline.length];
+      expect(points).toContainEqual(corner);
+      expect(turn(corner, next, outline[(k + 2) % outline.length])).toBeGreaterThan(0);
+      for (const point of points) expect(turn(corner, next, point)).toBeGreaterThanOrEqual(-1e-12);
+    });
+  });
+
+  it("finds the corners of tubes and meshes", () => {
+    const ends = corners({ frame: 0, color: [0, 0, 0], tube: [0, 0, 1, 0, 3, 1, 0.2] });
+    expect(ends.length).toBe(40);
+    ends.forEach(([x, y, z], k) => {
+      expect(Math.hypot(x, z - 1)).toBeCloseTo(0.2, 12);
+      expect(y).toBeCloseTo(k < 20 ? 0 : 3, 12);
+    });
+    const numbers = [0, 9e3, 65535].flatMap((x) => [0, 8e3, 65535].flatMap((y) => [0, 7e3, 65535].flatMap((z) => [x, y, z])));
+    const cube = corners({ frame: 0, color: [0, 0, 0], mesh: { low: [1, 1, 1], side: 2, points: encoded(numbers), faces: "" } });
+    const [low, high] = [[1, 1, 1], [3, 3, 3]] as [Vector, Vector];
+    expect(new Set(cube.map(String))).toEqual(new Set(edges({ low, high }).map(String)));
   });
 
   it("has a floor of round numbers", () => {

@@ -51,7 +51,7 @@ export class ArmPage {
     const step = conditions.includes("locked") ? "lock" : "healthy";
     const defaults: PageState = { arm: data.name, step, q: data.scene.arms[0].q[0], conditions, brakeDelay: 150 };
     this.state = readAddress(location.hash, data, defaults);
-    this.bars = new Bars(this.find(".bars") as HTMLElement, data.texts, data.jointLabels, (joint, condition) =>
+    this.bars = new Bars(this.find(".bars") as HTMLElement, data.texts, (joint, condition) =>
       this.selectCondition(joint, condition),
     );
     this.handle = new ToolHandle(this.addHandle(), {
@@ -72,6 +72,13 @@ export class ArmPage {
 
   get failed(): number[] {
     return this.state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
+  }
+
+  /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
+  get controlTarget(): Vector {
+    const { story } = this.data;
+    const tool = this.arm.toolPosition(this.state.q);
+    return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
   }
 
   label(joint: number): string {
@@ -211,7 +218,7 @@ export class ArmPage {
     } catch {
       // A page in a sandboxed frame has no address of its own.
     }
-    writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst);
+    writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst, this.controlTarget);
   }
 
   /** Place what lies over the picture. */

@@ -12,7 +12,6 @@ export class Bars {
   constructor(
     private readonly list: HTMLElement,
     private readonly texts: Record<string, string>,
-    private readonly labels: string[],
     change: (joint: number, condition: Condition) => void,
   ) {
     this.buttons = [...list.querySelectorAll("button")];
@@ -33,8 +32,7 @@ export class Bars {
       (button.querySelector(".bar-condition") as HTMLElement).textContent =
         condition === "healthy" ? (joint === worst ? this.texts.worst : "") : this.texts[condition];
       const next = this.texts[`make_${NEXT[condition]}`];
-      const state = condition === "healthy" ? "" : `${this.texts[condition]}. `;
-      button.setAttribute("aria-label", state + fillText(this.texts.bar, { joint: this.labels[joint], share, next }));
+      (button.querySelector(".visually-hidden") as HTMLElement).textContent = fillText(this.texts.bar, { next });
     });
     this.list.dataset.failed = String(conditions.some((condition) => condition !== "healthy"));
   }

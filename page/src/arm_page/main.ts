@@ -6,21 +6,20 @@ import type { ArmPageData, PrintedKernels } from "./data";
 
 declare const armKernels: Record<string, PrintedKernels>;
 
-const started = new Set<Element>();
+type Section = HTMLElement & { armPage?: ArmPage };
 
-function start(section: HTMLElement): void {
+function start(section: Section): void {
   const canvas = section.querySelector("canvas");
   const box = section.querySelector<HTMLElement>(".view3d");
-  if (started.has(section) || !canvas || !box) return;
-  started.add(section);
+  if (section.armPage || !canvas || !box) return;
   const read = (selector: string): unknown => JSON.parse(section.querySelector(selector)?.textContent ?? "");
   const scene = read(".view3d > script[type='application/json']") as Scene;
   scene.parts = read(".view3d-body script") as Scene["parts"];
-  const data = { ...(read(".arm-data") as ArmPageData), scene };
-  new ArmPage(section, data, armKernels[data.name], box, canvas);
+  const data = { ...(read(".arm-data script") as ArmPageData), scene };
+  section.armPage = new ArmPage(section, data, armKernels[data.name], box, canvas);
 }
 
-const sections = [...document.querySelectorAll<HTMLElement>(".arm")];
+const sections = [...document.querySelectorAll<Section>(".arm")];
 const menu = document.querySelector<HTMLSelectElement>(".arm-menu");
 menu?.addEventListener("change", () => {
   sections.forEach((section, k) => (section.hidden = k !== menu.selectedIndex));
@@ -31,3 +30,4 @@ const first = Math.max(0, sections.findIndex((section) => section.dataset.name =
 if (menu) menu.selectedIndex = first;
 sections.forEach((section, k) => (section.hidden = k !== first));
 if (sections.length) start(sections[first]);
+performance.mark("arm page ready");

@@ -5,6 +5,8 @@ import type { ArmModel, Values } from "./arm_model";
 import { addScaled, dotProduct, splitRows, stepRungeKutta, vectorNorm } from "./small_matrices";
 
 const STEP_S = 0.002;
+/** Largest product of a step and a damping rate; the method of order 4 is stable up to 2.78. */
+const STABLE_RATE = 2;
 /** Acceleration of a joint below which it does not swing, rad/s^2 or m/s^2. */
 const REST_ACCELERATION = 1e-9;
 
@@ -25,6 +27,11 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
     const [configuration, rates] = splitRows(state, 2);
     return Float64Array.from([...rates, ...arm.accelerations(configuration, rates, free)]);
   };
+  const substeps = Math.max(1, Math.ceil((STEP_S * dampingRate(arm, q, free)) / STABLE_RATE));
+  const advance = (state: Float64Array, duration: number): Float64Array => {
+    for (let k = 0; k < substeps; k++) state = stepRungeKutta(derivative, state, duration / substeps);
+    return state;
+  };
   const fall: Fall = { time: [0], configurations: [Float64Array.from(q)], drop: [0], limitJoint: null };
   let time = 0;
   let state: Float64Array = new Float64Array(2 * arm.jointCount);
@@ -32,12 +39,12 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
   while (time < brakeTime - 1e-9 && fall.limitJoint === null) {
     const before = splitRows(state, 2)[0];
     let step = Math.min(STEP_S, brakeTime - time);
-    let next = stepRungeKutta(derivative, state, step);
+    let next = advance(state, step);
     const crossing = firstCrossing(arm, before, splitRows(next, 2)[0], free);
     if (crossing !== null) {
       fall.limitJoint = crossing.joint;
       step *= crossing.fraction;
-      next = stepRungeKutta(derivative, state, step);
+      next = advance(state, step);
     }
     [time, state] = [time + step, next];
     const configuration = splitRows(state, 2)[0].map((value, k) => Math.min(arm.upper[k], Math.max(arm.lower[k], value)));
@@ -46,6 +53,13 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
     fall.drop.push(dotProduct(addScaled(arm.toolPosition(configuration), start, -1), down));
   }
   return fall;
+}
+
+/** Return a bound of the rate, 1/s, at which viscous friction slows the free joints down: the trace of its matrix. */
+function dampingRate(arm: ArmModel, q: Values, free: Values): number {
+  const accelerate = (moving: number, k: number): number =>
+    arm.accelerations(q, arm.joints.map((_, joint) => (joint === moving ? 1 : 0)), free)[k];
+  return arm.joints.reduce((total, _, k) => total + accelerate(-1, k) - accelerate(k, k), 0);
 }
 
 interface Crossing {

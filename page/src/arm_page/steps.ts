@@ -241,9 +241,8 @@ export class UndetectedStep extends Step {
     if (story === null || this.timer) return;
     const self = traceSelfMotion(arm, state.q);
     const prepared = self.configurations[self.best];
-    const [tool, first] = [arm.toolPosition(state.q), arm.toolPosition(story.start)];
-    const target = tool.map((value, k) => value + story.target[k] - first[k]) as Vector;
-    this.line = [tool, target];
+    const target = this.page.controlTarget;
+    this.line = [arm.toolPosition(state.q), target];
     const starts = [state.q, state.q, prepared];
     const laws = [story.laws[0], story.laws[1], story.laws[0]];
     this.motions = starts.map((start, k) =>
@@ -365,8 +364,8 @@ export class PowerStep extends Step {
     const drop = formatLength(this.drop);
     if (this.swing !== null) {
       const joint = capitalise(this.page.failedNames());
-      return [this.text("swing", { joint, angle: formatAngle(this.swing.toFarthest) }), this.text("swing_detail", {
-        delay: state.brakeDelay, drop, rest: formatAngle(this.swing.toRest) })];
+      const angle = formatAngle(Math.abs(this.swing.toFarthest));
+      return [this.text("swing", { joint, angle }), this.text("swing_detail", { delay: state.brakeDelay, drop })];
     }
     const { limitJoint, time } = this.fall as Fall;
     const end = time[time.length - 1];

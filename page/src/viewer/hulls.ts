@@ -10,8 +10,7 @@ import { vertices } from "./shapes";
 /** x, y, and possibly more, pixels. */
 type Point = number[];
 
-const RING_CORNERS = 24; // of each flat end of a tube
-const BALL_CORNERS = 96; // of each round end of a tube
+const RING_CORNERS = 20; // of each end of a tube, as in body.py
 const MESH_DIRECTIONS = 320; // in which a mesh keeps its extreme vertex
 const NEAREST_M = 0.01; // distance before the eye
 const OBJECT_OPACITY = 0.35;
@@ -27,8 +26,8 @@ export function spreadDirections(count: number): Vector[] {
   });
 }
 
-/** Corners of a part in the frame of its link, m: of a mesh, the extreme vertices along each direction. */
-export function corners({ mesh, tube, round }: Part): Vector[] {
+/** Corners of a part in the frame of its link, m: both ends of a tube, or the extreme vertices of a mesh. */
+export function corners({ mesh, tube }: Part): Vector[] {
   if (mesh) {
     const all = vertices(mesh);
     const extremes = spreadDirections(MESH_DIRECTIONS).map(([x, y, z]) => {
@@ -42,17 +41,14 @@ export function corners({ mesh, tube, round }: Part): Vector[] {
     return [...new Set(extremes)].map((k) => [all[k], all[k + 1], all[k + 2]]);
   }
   const [a, b, c, d, e, f, radius] = tube as number[];
-  const ends: Vector[] = [[a, b, c], [d, e, f]];
-  if (round) return ends.flatMap((end) => spreadDirections(BALL_CORNERS).map((direction) => sum(end, direction, radius)));
-  const axis = unit(sum(ends[1], ends[0], -1));
+  const axis = unit([d - a, e - b, f - c]);
   const first = across(axis);
   const second = cross(axis, first);
-  return ends.flatMap((end) =>
-    Array.from({ length: RING_CORNERS }, (_, k) => {
-      const angle = (2 * Math.PI * k) / RING_CORNERS;
-      return sum(sum(end, first, radius * Math.cos(angle)), second, radius * Math.sin(angle));
-    }),
-  );
+  return Array.from({ length: 2 * RING_CORNERS }, (_, k) => {
+    const angle = (2 * Math.PI * k) / RING_CORNERS;
+    const rim = sum(k < RING_CORNERS ? [a, b, c] : [d, e, f], first, radius * Math.cos(angle));
+    return sum(rim, second, radius * Math.sin(angle));
+  });
 }
 
 /** Twice the area of the triangle a, b, c, above 0 if it runs from x to y. */
@@ -73,44 +69,39 @@ export function hull(points: Point[]): Point[] {
 }
 
 /** The piece of a segment before the eye, if any. */
-function clip(matrix: Float32Array, start: Vector, end: Vector): [Vector, Vector] | null {
+function clip(matrix: Float32Array, start: Vector, end: Vector): Vector[] {
   const [a, b] = [start, end].map((point) => project(matrix, point, 1, 1)[2] - NEAREST_M);
-  if (a < 0 && b < 0) return null;
+  if (a < 0 && b < 0) return [];
   const cut = sum(start, sum(end, start, -1), a / (a - b));
   return [a < 0 ? cut : start, b < 0 ? cut : end];
 }
 
-interface Outline {
-  hull: Point[];
-  /** The visible flat end of a tube. */
-  cap: Point[] | null;
-  /** Mean distance before the eye. */
-  depth: number;
+const cornersByPart = new WeakMap<Part, Vector[]>();
+let layer: CanvasRenderingContext2D | null = null;
+
+/** An empty canvas, the same one for all pictures. */
+function clearLayer(width: number, height: number): CanvasRenderingContext2D {
+  layer ??= document.createElement("canvas").getContext("2d") as CanvasRenderingContext2D;
+  if (layer.canvas.width !== width || layer.canvas.height !== height) Object.assign(layer.canvas, { width, height });
+  layer.clearRect(0, 0, width, height);
+  return layer;
 }
 
 export class HullRenderer implements Renderer {
   readonly hidesFarther = false;
-  private readonly known = new WeakMap<Part, Vector[]>();
-  private readonly layer = document.createElement("canvas");
-  private picture: Picture | null = null;
-  private context: CanvasRenderingContext2D | null = null;
 
-  begin(picture: Picture): void {
-    this.picture = picture;
-    this.context = picture.onto;
+  constructor(private readonly picture: Picture) {
     picture.onto.lineJoin = picture.onto.lineCap = "round";
   }
 
-  finish(): void {
-    this.picture = this.context = null;
-  }
-
   over(): void {}
+  finish(): void {}
 
-  /** Outline of a body on the picture, in its pixels; none if it extends behind the eye. */
-  outline({ part, pose }: Body, { matrix: m, onto }: Picture): Outline | null {
-    let local = this.known.get(part);
-    if (!local) this.known.set(part, (local = corners(part)));
+  /** Corners of a body in pixels, and their mean distance before the eye, m; none if it extends behind the eye. */
+  private place({ part, pose }: Body): { points: Point[]; depth: number } | null {
+    const { matrix: m, onto } = this.picture;
+    let local = cornersByPart.get(part);
+    if (!local) cornersByPart.set(part, (local = corners(part)));
     const row = (i: number): number[] =>
       [0, 1, 2, 3].map((k) => m[i] * pose[k] + m[4 + i] * pose[4 + k] + m[8 + i] * pose[8 + k] + (k === 3 ? m[12 + i] : 0));
     const [x, y, w] = [row(0), row(1), row(3)];
@@ -119,32 +110,30 @@ export class HullRenderer implements Renderer {
     const points: Point[] = [];
     for (const [a, b, c] of local) {
       const distance = w[0] * a + w[1] * b + w[2] * c + w[3];
-      if (distance <= 0) return null;
+      if (distance < NEAREST_M) return null;
       depth += distance / local.length;
       points.push([
         right * (1 + (x[0] * a + x[1] * b + x[2] * c + x[3]) / distance),
         down * (1 - (y[0] * a + y[1] * b + y[2] * c + y[3]) / distance),
       ]);
     }
-    const rings = part.tube && !part.round ? [points.slice(0, RING_CORNERS).reverse(), points.slice(RING_CORNERS)] : [];
-    return { hull: hull(points), cap: rings.find(([a, b, c]) => area(a, b, c) < 0) ?? null, depth };
+    return { points, depth };
   }
 
   solids(bodies: Body[], opacity = 1): void {
-    const { picture, context } = this;
-    if (!picture || !context) return;
-    const seen = bodies.flatMap((body) => {
-      const outline = this.outline(body, picture);
-      return outline ? [{ ...outline, color: body.color, back: body.part.object === true }] : [];
+    const { onto, palette } = this.picture;
+    const { width, height, clientWidth } = onto.canvas;
+    const drawn = bodies.flatMap((body) => {
+      const placed = this.place(body);
+      return placed ? [{ ...body, ...placed, isObject: body.part.object === true }] : [];
     });
     // Of parts at the same depth, to a millimetre, later ones cover earlier ones, as in the still drawing.
-    seen.sort((a, b) => Number(b.back) - Number(a.back) || Math.round(1000 * b.depth) - Math.round(1000 * a.depth));
-    // Parts of a transparent arm do not show through each other.
-    const target = opacity < 1 && seen.length > 1 ? this.clearLayer(context.canvas) : context;
-    if (!target) return;
-    target.lineWidth = OUTLINE_PX * (context.canvas.width / context.canvas.clientWidth || 1);
-    target.strokeStyle = css(picture.palette.outline);
+    drawn.sort((a, b) => Number(b.isObject) - Number(a.isObject) || Math.round(1000 * b.depth) - Math.round(1000 * a.depth));
+    // Parts of a transparent arm do not show through each other, because it is drawn on a layer.
+    const target = opacity < 1 && drawn.length > 1 ? clearLayer(width, height) : onto;
     target.lineJoin = "round";
+    target.lineWidth = (OUTLINE_PX * width) / clientWidth;
+    target.strokeStyle = css(palette.outline);
     const trace = (points: Point[], color: Vector): void => {
       target.beginPath();
       for (const [x, y] of points) target.lineTo(x, y);
@@ -153,54 +142,46 @@ export class HullRenderer implements Renderer {
       target.fill();
       target.stroke();
     };
-    for (const { hull, cap, color, back } of seen) {
-      target.globalAlpha = (back ? OBJECT_OPACITY : 1) * (target === context ? opacity : 1);
-      trace(hull, color);
-      if (cap) trace(cap, color.map((x) => 0.8 * x + 0.2) as Vector);
+    for (const { part, points, color, isObject } of drawn) {
+      target.globalAlpha = (isObject ? OBJECT_OPACITY : 1) * (target === onto ? opacity : 1);
+      trace(hull(points), color);
+      if (!part.tube) continue;
+      // The end of a tube that is seen from outside runs round the other way.
+      for (const ring of [points.slice(0, RING_CORNERS).reverse(), points.slice(RING_CORNERS)]) {
+        if (area(ring[0], ring[1], ring[2]) < 0) trace(ring, color.map((x) => 0.8 * x + 0.2) as Vector);
+      }
     }
-    target.globalAlpha = 1;
-    if (target === context) return;
-    context.globalAlpha = opacity;
-    context.drawImage(target.canvas, 0, 0);
-    context.globalAlpha = 1;
-  }
-
-  private clearLayer({ width, height }: HTMLCanvasElement): CanvasRenderingContext2D | null {
-    const { layer } = this;
-    if (layer.width !== width || layer.height !== height) [layer.width, layer.height] = [width, height];
-    const context = layer.getContext("2d");
-    context?.clearRect(0, 0, width, height);
-    return context;
+    if (target !== onto) {
+      onto.globalAlpha = opacity;
+      onto.drawImage(target.canvas, 0, 0);
+    }
+    onto.globalAlpha = 1;
   }
 
   lines({ points, color, width, opacity = 1 }: Lines): void {
-    const { picture, context } = this;
-    if (!picture || !context) return;
-    const { canvas } = context;
-    context.beginPath();
+    const { matrix, onto } = this.picture;
+    onto.beginPath();
     for (let k = 0; k + 1 < points.length; k += 2) {
-      const segment = clip(picture.matrix, points[k], points[k + 1]);
-      segment?.forEach((point, j) => {
-        const [x, y] = project(picture.matrix, point, canvas.width, canvas.height);
-        if (j) context.lineTo(x, y);
-        else context.moveTo(x, y);
-      });
+      const ends = clip(matrix, points[k], points[k + 1]);
+      const [start, end] = ends.map((point) => project(matrix, point, onto.canvas.width, onto.canvas.height));
+      if (!start) continue;
+      onto.moveTo(start[0], start[1]);
+      onto.lineTo(end[0], end[1]);
     }
-    context.strokeStyle = css(color, opacity);
-    context.lineWidth = width;
-    context.stroke();
+    onto.strokeStyle = css(color, opacity);
+    onto.lineWidth = width;
+    onto.stroke();
   }
 
   dots(points: Vector[], colors: Vector[], width: number): void {
-    const { picture, context } = this;
-    if (!picture || !context) return;
+    const { matrix, onto } = this.picture;
     points.forEach((point, k) => {
-      const [x, y, depth] = project(picture.matrix, point, context.canvas.width, context.canvas.height);
-      if (depth <= 0) return;
-      context.beginPath();
-      context.arc(x, y, width / 2, 0, 2 * Math.PI);
-      context.fillStyle = css(colors[k]);
-      context.fill();
+      const [x, y, depth] = project(matrix, point, onto.canvas.width, onto.canvas.height);
+      if (depth < NEAREST_M) return;
+      onto.beginPath();
+      onto.arc(x, y, width / 2, 0, 2 * Math.PI);
+      onto.fillStyle = css(colors[k]);
+      onto.fill();
     });
   }
 }

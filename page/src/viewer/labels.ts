@@ -41,7 +41,8 @@ export function writeLabels(labels: Label[], { onto, matrix, palette: { paper } 
     const free = tries.find((place) => {
       const [a, b, c, d] = box(place);
       const inside = a >= 0 && c <= width && b >= 0 && d <= height;
-      return inside && taken.every(([x, y, z, w]) => c + tall < x || a > z + tall || d < y || b > w); // two labels next to each other would read as one
+      // Two labels next to each other would read as one.
+      return inside && taken.every(([x, y, z, w]) => c + tall < x || a > z + tall || d < y || b > w);
     });
     const chosen = free ?? (label.strong ? [Math.min(Math.max(tries[0][0], 0), width - long), tries[0][1]] : null);
     if (!chosen) continue;

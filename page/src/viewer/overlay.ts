@@ -43,10 +43,11 @@ export type Project = (point: Vector) => number[];
 
 const ELLIPSOID_SCALE_S = 0.4; // metres on the picture for a half axis of 1 m/s
 const LOST_LENGTH = 0.26; // of the stretched arm
+const LETTER_PX = 8.5; // width of a letter of a label, at most on average
 const CURVE_CORNERS = 48;
 const SURFACE = spreadDirections(160);
 
-function trace(points: number[][], closed = false): string {
+function formatPath(points: number[][], closed = false): string {
   return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}${closed ? "Z" : ""}`;
 }
 
@@ -68,23 +69,24 @@ export function drawEllipsoid(locate: Project, { center, halfAxes, directions, s
       return placeShare(share);
     }),
   );
-  const paths = curves.map((curve) => createSvg("path", { d: trace(curve, true) }));
+  const paths = curves.map((curve) => createSvg("path", { d: formatPath(curve, true) }));
   if (style === "before") return group("ellipsoid overlay-before", ...paths);
   const outline = hull([...curves.flat(), ...SURFACE.map(placeShare)]);
-  return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: trace(outline, true) }), ...paths);
+  return group("ellipsoid overlay-after", createSvg("path", { class: "overlay-fill", d: formatPath(outline, true) }), ...paths);
 }
 
-/** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label at the end. */
-export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number): SVGElement {
+/** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label within the width in pixels. */
+export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
   const { lines, end } = mark({ twist, words: label }, center, length);
-  const segments = lines.flatMap((start, k) => (k % 2 ? [] : [trace([locate(start), locate(lines[k + 1])])]));
+  const segments = lines.flatMap((start, k) => (k % 2 ? [] : [formatPath([locate(start), locate(lines[k + 1])])]));
   const [x, y] = locate(end);
-  const text = createSvg("text", { class: "overlay-label", x: (x + 10).toFixed(1), y: (y - 6).toFixed(1) }, label);
+  const left = Math.min(x + 10, width - LETTER_PX * label.length);
+  const text = createSvg("text", { class: "overlay-label", x: left.toFixed(1), y: (y - 6).toFixed(1) }, label);
   return group("lost", createSvg("path", { d: segments.join("") }), text);
 }
 
 export function drawTrail(locate: Project, { points, style }: Trail): SVGElement {
-  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: trace(points.map(locate)) });
+  return createSvg("path", { class: `overlay-trail overlay-${style}`, d: formatPath(points.map(locate)) });
 }
 
 export function drawPadlock(locate: Project, joint: Vector): SVGElement {
@@ -113,9 +115,9 @@ export class Overlay {
     this.element.replaceChildren(
       ...ellipsoids.map((ellipsoid) => drawEllipsoid(locate, ellipsoid)),
       ...trails.map((trail) => drawTrail(locate, trail)),
-      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size)),
+      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size, clientWidth)),
       ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
-      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: trace(pointerLine.map(locate)) })] : []),
+      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: formatPath(pointerLine.map(locate)) })] : []),
     );
   }
 }

@@ -113,7 +113,7 @@ export class Painter implements Renderer {
     return program;
   }
 
-  begin(picture: Picture): void {
+  begin(picture: Picture): this {
     const { canvas, gl } = this;
     const { width, height } = picture.onto.canvas;
     // Only ever larger: a new size is a new picture for the graphics card.
@@ -124,6 +124,7 @@ export class Painter implements Renderer {
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     this.picture = picture;
+    return this;
   }
 
   /** Copy the picture onto the canvas of its view. */

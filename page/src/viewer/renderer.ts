@@ -33,7 +33,6 @@ export interface Lines {
 export interface Renderer {
   /** Whether near shapes hide those behind them in any order; otherwise a shape covers those before it. */
   readonly hidesFarther: boolean;
-  begin(picture: Picture): void;
   solids(bodies: Body[], opacity?: number): void;
   lines(lines: Lines): void;
   dots(points: Vector[], colors: Vector[], width: number): void;
@@ -42,19 +41,19 @@ export interface Renderer {
   finish(): void;
 }
 
-const hulls = new HullRenderer();
 let painter: Painter | null = null;
 let withoutCard = false;
 
-/** The renderer of a scene. A WebGL renderer is created again after its context is lost. */
-export function chooseRenderer({ objects, points, boxes }: Scene): Renderer {
-  if (withoutCard || !(objects.length || points.length || boxes.length)) return hulls;
-  try {
-    if (!painter || painter.lost) painter = new Painter();
-    if (!painter.software) return painter;
-  } catch {
-    painter = null;
+/** The renderer of a picture of a scene. A WebGL renderer is created again after its context is lost. */
+export function chooseRenderer({ objects, points, boxes }: Scene, picture: Picture): Renderer {
+  if (!withoutCard && objects.length + points.length + boxes.length) {
+    try {
+      if (!painter || painter.lost) painter = new Painter();
+      withoutCard = painter.software;
+    } catch {
+      withoutCard = true;
+    }
+    if (!withoutCard && painter) return painter.begin(picture);
   }
-  withoutCard = true;
-  return hulls;
+  return new HullRenderer(picture);
 }

@@ -169,9 +169,8 @@ export class View {
     const palette = choosePalette(this.box);
     const matrix = camera.matrix(width / height);
     const picture: Picture = { onto, matrix, eye: camera.eye, up: scene.up, right: camera.axes().right, palette };
-    const renderer = chooseRenderer(scene);
+    const renderer = chooseRenderer(scene, picture);
     const poses = this.configurations().map(this.solve);
-    renderer.begin(picture);
     renderer.lines({ points: this.floor, color: palette.faint, width: ratio });
     const paintGhosts = (): void => {
       for (let k = poses.length - 1; k > 0; k--) renderer.solids(this.bodies(k, poses[k], palette), 0.5);
@@ -221,7 +220,7 @@ export class View {
       renderer.lines({ points, color, width: thick * ratio });
     for (const box of scene.boxes) line(edges(box), palette.soft, 1.4);
     line(joined(scene.path), palette.orange, 1.8);
-    if (scene.time.length) {
+    if (scene.time.length && !this.ghosts) {
       this.trails ??= scene.arms.map((arm) => arm.q.map((q) => place(this.solve(q).at(-1) as Pose)));
       this.trails.forEach((trail, k) => {
         const gone = trail.slice(0, Math.floor(this.at) + 1);
@@ -258,7 +257,7 @@ export class View {
   }
 
   private armLabels(poses: Pose[][], palette: Palette): Label[] {
-    if (poses.length < 2) return [];
+    if (this.ghosts || poses.length < 2) return [];
     return this.scene.arms.map((arm, k) => {
       const middle = place(poses[k][Math.ceil(poses[k].length / 2)]);
       return { text: arm.label, at: middle, color: this.colors(palette)[k % 5], strong: true };

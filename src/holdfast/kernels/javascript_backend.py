@@ -1,10 +1,11 @@
 """Translate a program to JavaScript for a browser.
 
 V8 does not optimise a function with more than 60 kB of code, so a long program becomes several functions, which share values
-through an array. Measured with Node 20 on one core of a shared machine, ten calls of the failure-tolerant law: three links
+through an array. Measured with Node 24 on one core of a shared machine, ten calls of the failure-tolerant law: three links
 (4,400 CasADi operations) 14 us in functions of 100 operations, 12 of 200, 10 of 800 and more; Panda's position (12,900
-operations) 36 us in functions of 200, 28 of 1000, 31 as a single function; its pose (28,900 operations) 98, 71 and 83 us. A
-value that is used once stays inside the expression that reads it, which an engine skips if the other branch of a choice is taken.
+operations) 36 us in functions of 200, 28 of 1000, 31 as a single function; its pose (28,900 operations) 98, 71 and 83 us.
+A value that is used once stays inside the expression that reads it, which an engine skips if the other branch of a choice is
+taken.
 
 Sine and cosine add 0.7 kB to a text, the arctangent 1.1 kB, the exponential and the logarithm 0.7 kB each. With them Panda's
 kernels take as long as with ``Math.sin``: task Jacobian 0.19 us (0.17), null space 0.26 (0.22), step of the inverse kinematics

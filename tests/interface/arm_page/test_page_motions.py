@@ -8,7 +8,7 @@ import oracles
 from holdfast import control
 from holdfast.model.arm.task import default_path_task
 
-ARMS = ("panda", "iiwa14", "pa10-9dof", "planar-3r", "crane")
+ARMS = ("panda", "panda position", "iiwa14", "pa10-9dof", "planar-3r", "crane")
 GAIN, SPEED_M_S, STEP_S = 2.0, 0.25, 0.02
 
 
@@ -46,7 +46,7 @@ def test_a_drag_reaches_what_is_near(page_arm, rng, name):
     assert (pose_errors(page, ends, goal)[~reached] > 1e-7).all()
 
 
-@pytest.mark.parametrize("name", ("panda", "crane"))
+@pytest.mark.parametrize("name", ["panda", "crane"])
 def test_random_starts_reach_what_is_reachable(page_arm, rng, name):
     page, count = page_arm(name), 20
     q, goal = oracles.inside(page.arm, rng, 2 * count).reshape(2, count, -1)
@@ -54,7 +54,8 @@ def test_random_starts_reach_what_is_reachable(page_arm, rng, name):
     goal[range(count), locked] = q[range(count), locked]
     rows = list(zip(q, poses(page, goal), locked.tolist(), strict=True))
     script = """(page, arm, [q, target, joint]) => [
-        page.reachTarget(arm, q, target, arm.freeJoints([joint])), page.searchTarget(arm, q, target, arm.freeJoints([joint]))]"""
+        page.reachTarget(arm, q, target, arm.freeJoints([joint])),
+        page.searchTarget(arm, q, target, arm.freeJoints([joint]))]"""
     found = page.call(script, rows)
     ends = np.array([search["configuration"] for _, search in found])
     np.testing.assert_array_equal(ends[range(count), locked], q[range(count), locked])
@@ -63,15 +64,18 @@ def test_random_starts_reach_what_is_reachable(page_arm, rng, name):
     assert all(search["error"] <= drag["error"] for drag, search in found)
 
 
-def test_a_target_beyond_the_arm_is_not_reached_and_the_arm_points_at_it(page_arm, rng):
+def test_a_target_beyond_the_arm_is_not_reached(page_arm, rng):
     page = page_arm("panda")
     q = oracles.inside(page.arm, rng, 5)
     targets = poses(page, q)
     targets[:, [3, 7, 11]] *= 4 / np.linalg.norm(targets[:, [3, 7, 11]], axis=1, keepdims=True)
-    found = page.call(
-        "(page, arm, [q, target]) => page.searchTarget(arm, q, target, arm.freeJoints([]))", list(zip(q, targets))
-    )
+    rows = list(zip(q, targets, strict=True))
+    found = page.call("(page, arm, [q, target]) => page.searchTarget(arm, q, target, arm.freeJoints([]))", rows)
     assert not any(row["reached"] for row in found)
+    script = """(page, arm, [q, target]) => Array.from({length: 31}, (_, steps) =>
+        page.reachTarget(arm, q, target, arm.freeJoints([]), steps).error)"""
+    errors = np.array(page.call(script, rows))
+    assert (np.diff(errors) <= 0).all()  # a further step never leads away
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -97,21 +101,31 @@ def test_the_tool_stays_on_the_self_motion(page_arm, rng, name):
             assert (rise > -1e-2).all()
 
 
-@pytest.mark.parametrize("name", ("panda", "planar-3r", "crane"))
+@pytest.mark.parametrize("name", ["panda", "planar-3r", "crane"])
 def test_the_self_motion_is_the_whole_curve(page_arm, rng, name):
     page, compared = page_arm(name), 0
-    starts = oracles.inside(page.arm, rng, 4)
+    starts = oracles.inside(page.arm, rng, 8)
     for start, motion in zip(starts, page.call("(page, arm, q) => page.traceSelfMotion(arm, q)", starts.tolist()), strict=True):
         q = np.array(motion["configurations"])
         curves = hf.self_motion(page.arm, page.arm.forward_kinematics(start), page.task, spacing=0.03).components
         for curve in curves:
-            distances = np.linalg.norm(curve.q - start, axis=1)
-            if distances.min() < 0.02:
+            turns = np.rint((curve.q - start) / (2 * np.pi)) * ~(page.arm.prismatic | np.isfinite(page.arm.lower))
+            if np.linalg.norm(curve.q - 2 * np.pi * turns - start, axis=1).min() < 0.02:
                 compared += 1
                 assert (motion["ends"] == ["closed loop"] * 2) == curve.closed
                 length = np.linalg.norm(np.diff(q, axis=0), axis=1).sum()
                 assert abs(length - curve.length) < 0.06 + 0.02 * curve.length
     assert compared
+
+
+@pytest.mark.parametrize("name", ["panda", "iiwa14", "crane"])
+def test_a_self_motion_ends_at_limits(page_arm, rng, name):
+    """Close to a singular configuration it turns within a step, and goes on."""
+    page = page_arm(name)
+    starts = oracles.inside(page.arm, rng, 40)
+    assert all(
+        "no progress" not in ends for ends in page.call("(page, arm, q) => page.traceSelfMotion(arm, q).ends", starts.tolist())
+    )
 
 
 def closed_loops(page, rng, name, count, label):
@@ -132,8 +146,8 @@ def distances_from_line(x, target):
     return np.linalg.norm(x - x[0] - fraction[:, None] * line, axis=1)
 
 
-@pytest.mark.parametrize("label", ("pseudoinverse", "failure-tolerant"))
-@pytest.mark.parametrize("name", ("panda", "planar-3r", "crane"))
+@pytest.mark.parametrize("label", ["pseudoinverse", "failure-tolerant"])
+@pytest.mark.parametrize("name", ["panda", "planar-3r", "crane"])
 def test_closed_loops_are_those_of_simulate(page_arm, rng, name, label):
     page = page_arm(name)
     rows, motions = closed_loops(page, rng, name, 4, label)
@@ -148,10 +162,10 @@ def test_closed_loops_are_those_of_simulate(page_arm, rng, name, label):
         path = run.path(samples=end + 1, until=time[end])
         np.testing.assert_allclose(np.array(motion["configurations"])[: end + 1, joint], q[joint], rtol=0, atol=0)
         # The damping of the failure-tolerant law has kinks and jumps within the steps.
-        tolerance = 1e-6 if label == "pseudoinverse" else 1e-4
+        tolerance = 1e-5 if label == "pseudoinverse" else 1e-3
         np.testing.assert_allclose(trail[: end + 1], path.x, rtol=0, atol=tolerance)
         np.testing.assert_allclose(trail[end:], np.broadcast_to(trail[end], trail[end:].shape), rtol=0, atol=tolerance)
-        assert abs(motion["deviation"] - distances_from_line(path.x, target).max()) < 1e-5
+        assert abs(motion["deviation"] - distances_from_line(path.x, target).max()) < tolerance
         arrived = np.flatnonzero(np.linalg.norm(path.x - target, axis=1) <= 0.01)
         assert (
             motion["arrivalTime"] is None if not len(arrived) else abs(motion["arrivalTime"] - time[arrived[0]]) < STEP_S * 1.01

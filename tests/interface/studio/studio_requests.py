@@ -16,7 +16,8 @@ class Page:
         status, self.headers, content = self.request("GET", self.path)
         assert status == 200, content
         self.html = content.decode()
-        self.data = json.loads(re.search(r'class="arm-data">(.*?)</script>', self.html, re.DOTALL)[1])
+        section = self.html.partition('class="arm-data" hidden>')[2]
+        self.data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', section, re.DOTALL)[1])
         self.state, self.token = self.data["studio"]["state"], self.data["studio"]["token"]
 
     def request(self, method: str, path: str, content: bytes | None = None, **headers: str) -> tuple[int, dict, bytes]:

@@ -1,6 +1,9 @@
-"""What a failure takes from the hand, against plain linear algebra that is done another way."""
+"""Speeds that a failure takes from the tool, against linear algebra that is done in another way."""
 
 from __future__ import annotations
+
+from decimal import Decimal, localcontext
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,26 +12,90 @@ import scipy.linalg
 import holdfast as hf
 from holdfast.kinematics.indices.lost_directions import (
     find_speed_losses,
-    manipulability_ellipsoid,
+    find_tool_ellipsoid,
     null_space_joint_rates,
     remaining_manipulability,
 )
 
+NO_ROWS = np.zeros((0, 8))
 
-def test_ellipsoid_is_the_gram_matrix_of_the_joints_that_move(rng):
-    for failed in ((), (2,), (0, 4)):
-        j = rng.normal(size=(3, 6))
-        shape = manipulability_ellipsoid(j, failed)
-        kept = np.delete(j, list(failed), axis=1)
-        assert np.linalg.det(shape.axes) == pytest.approx(1)
-        assert (np.diff(shape.radii) <= 0).all()
-        np.testing.assert_allclose(shape.axes @ np.diag(shape.radii**2) @ shape.axes.T, kept @ kept.T, atol=1e-12)
+
+def matrix_of(shape):
+    assert np.linalg.det(shape.axes) == pytest.approx(1)
+    np.testing.assert_allclose(shape.axes @ shape.axes.T, np.eye(3), atol=1e-12)
+    assert (np.diff(shape.radii) <= 0).all()
+    return shape.axes @ np.diag(shape.radii**2) @ shape.axes.T
+
+
+@pytest.mark.parametrize("angular", [NO_ROWS, np.zeros((3, 8)), np.full((2, 8), 1e-17)])
+@pytest.mark.parametrize("failed", [(), (2,), (0, 4)])
+def test_ellipsoid_without_angular_rows_is_the_gram_matrix(rng, angular, failed):
+    linear = rng.normal(size=(3, 8))
+    kept = np.delete(linear, failed, axis=1)
+    np.testing.assert_allclose(matrix_of(find_tool_ellipsoid(linear, angular, failed)), kept @ kept.T, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("failed", [(), (2,), (0, 4)])
+def test_ellipsoid_is_the_inverse_of_a_block_of_the_inverse(rng, count, failed):
+    j = rng.normal(size=(3 + count, 8))
+    kept = np.delete(j, failed, axis=1)
+    expected = np.linalg.inv(np.linalg.inv(kept @ kept.T)[:3, :3])
+    np.testing.assert_allclose(matrix_of(find_tool_ellipsoid(j[:3], j[3:], failed)), expected, atol=1e-10)
+
+
+def test_ellipsoid_contains_the_velocities_without_rotation(rng):
+    j = rng.normal(size=(6, 8))
+    basis = scipy.linalg.null_space(np.delete(j[3:], 5, axis=1))
+    _, radii, _ = np.linalg.svd(np.delete(j[:3], 5, axis=1) @ basis)
+    np.testing.assert_allclose(find_tool_ellipsoid(j[:3], j[3:], [5]).radii, radii, atol=1e-12)
+
+
+def test_a_lock_flattens_the_ellipsoid_along_the_lost_direction(rng):
+    for _ in range(20):
+        j, joint = rng.normal(size=(6, 7)), int(rng.integers(7))
+        cost = np.linalg.inv(j @ j.T)
+        h = cost @ j[:, joint]
+        rho = abs(scipy.linalg.null_space(j)[joint, 0])
+        healthy, failed = (find_tool_ellipsoid(j[:3], j[3:], locked) for locked in ([], [joint]))
+        expected = cost[:3, :3] + np.outer(h[:3], h[:3]) / rho**2
+        np.testing.assert_allclose(np.linalg.inv(matrix_of(failed)), expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+        kept = np.delete(j[3:], joint, axis=1)
+        volume = rho * np.sqrt(np.linalg.det(j[3:] @ j[3:].T) / np.linalg.det(kept @ kept.T))
+        assert np.prod(failed.radii) / np.prod(healthy.radii) == pytest.approx(volume, rel=1e-6)
+
+
+def test_the_ellipsoid_of_a_lost_direction_is_flat_and_the_gram_matrix_is_not(rng):
+    lost = rng.normal(size=6)
+    lost /= np.linalg.norm(lost)
+    j = rng.normal(size=(6, 8))
+    j -= np.outer(lost, lost @ j)
+    j[:, 3] += lost
+    shape = find_tool_ellipsoid(j[:3], j[3:], [3])
+    assert shape.radii[2] < 1e-14 < 1e-3 < shape.radii[1]
+    assert abs(shape.axes[:, 2] @ lost[:3]) == pytest.approx(np.linalg.norm(lost[:3]))
+    assert find_tool_ellipsoid(j[:3], NO_ROWS, [3]).radii[2] > 1e-3
+
+
+def test_dependent_angular_rows_count_once(rng):
+    j = rng.normal(size=(5, 8))
+    angular = np.vstack([j[3:], j[3] - 2 * j[4]])
+    expected = matrix_of(find_tool_ellipsoid(j[:3], j[3:], [1]))
+    np.testing.assert_allclose(matrix_of(find_tool_ellipsoid(j[:3], angular, [1])), expected, atol=1e-12)
 
 
 def test_ellipsoid_of_a_flat_arm_is_flat(flat4):
-    shape = manipulability_ellipsoid(flat4.jacobian([0.1, 0.4, -0.3, 0.8])[:3])
-    assert shape.radii[2] == pytest.approx(0, abs=1e-12)
-    assert abs(shape.axes[2, 2]) == pytest.approx(1)
+    j = flat4.jacobian([0.1, 0.4, -0.3, 0.8])
+    for angular, kept in ((NO_ROWS[:, :4], np.eye(4)), (j[3:], np.eye(4) - 0.25)):  # joint rates whose sum is 0
+        shape = find_tool_ellipsoid(j[:3], angular)
+        assert shape.radii[2] == pytest.approx(0, abs=1e-12)
+        assert abs(shape.axes[2, 2]) == pytest.approx(1)
+        np.testing.assert_allclose(matrix_of(shape), j[:3] @ kept @ j[:3].T, atol=1e-12)
+
+
+def test_without_moving_joints_the_ellipsoid_is_a_point(rng):
+    j = rng.normal(size=(6, 7))
+    assert not matrix_of(find_tool_ellipsoid(j[:3], j[3:], range(7))).any()
 
 
 @pytest.mark.parametrize("failed", [(0,), (3,), (1, 5), (0, 2, 6)])
@@ -39,11 +106,82 @@ def test_losses_are_the_generalised_eigenvectors(rng, failed):
     values, vectors = scipy.linalg.eigh(kept @ kept.T, j @ j.T)
     assert len(found) == len(failed)
     for k, loss in enumerate(found):
-        assert loss.kept == pytest.approx(np.sqrt(values[k]), abs=1e-9)
+        assert loss.kept == pytest.approx(np.sqrt(values[k]), abs=1e-12)
         other = vectors[:, k] / np.linalg.norm(vectors[:, k])
         assert abs(other @ loss.direction) == pytest.approx(1, abs=1e-9)
     ratio = np.linalg.det(kept @ kept.T) / np.linalg.det(j @ j.T)
     assert remaining_manipulability(found) == pytest.approx(np.sqrt(ratio), rel=1e-9)
+
+
+def eigenvalues_of_two_locks(j, failed):
+    """Return the squared remaining fractions of two locks from exact rational numbers, smallest first."""
+    rows = [[Fraction(float(x)) for x in row] for row in j]
+    gram = [[sum(a * b for a, b in zip(x, y, strict=True)) for y in rows] for x in rows]
+    columns = [[row[k] for row in rows] for k in failed]
+    system = [line + [column[i] for column in columns] for i, line in enumerate(gram)]
+    for i in range(len(system)):  # Gauss-Jordan; the Gram matrix is positive definite
+        system[i] = [x / system[i][i] for x in system[i]]
+        for k in range(len(system)):
+            if k != i:
+                system[k] = [x - system[k][i] * y for x, y in zip(system[k], system[i], strict=True)]
+    size = len(gram)
+    taken = [[sum(c[i] * system[i][size + k] for i in range(size)) for k in range(2)] for c in columns]
+    (a, b), (c, d) = ((1 - taken[0][0], -taken[0][1]), (-taken[1][0], 1 - taken[1][1]))
+    with localcontext() as context:
+        context.prec = 80
+        trace, determinant = (Decimal(x.numerator) / Decimal(x.denominator) for x in (a + d, a * d - b * c))
+        larger = (trace + (trace**2 - 4 * determinant).sqrt()) / 2
+        return [float((determinant / larger).sqrt()), float(larger.sqrt())]
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e-6, 1e-9])
+def test_losses_of_two_locks_are_exact(rng, size):
+    """``sqrt(1 - s^2)`` with the failed joints' part s of the row space has an error of 1e-8 for small remainders."""
+    for _ in range(5):
+        null_space = rng.normal(size=(8, 3))
+        null_space[[2, 5]] *= size * np.array([[1.0], [0.1]])
+        j = rng.uniform(0.5, 2, 5)[:, None] * np.linalg.svd(null_space)[0][:, 3:].T
+        found = [loss.kept for loss in find_speed_losses(j, [2, 5])]
+        np.testing.assert_allclose(found, eigenvalues_of_two_locks(j, [2, 5]), rtol=0, atol=2e-15)
+
+
+def test_remaining_speed_is_the_largest_component_along_the_direction(rng):
+    """The largest component along u of a velocity at joint rates of norm 1 is ``|J' u|``, healthy and failed."""
+    for _ in range(10):
+        j = rng.normal(size=(6, 9))
+        failed = rng.permutation(9)[: int(rng.integers(1, 3))]
+        for loss in find_speed_losses(j, failed):
+            healthy, reduced = (np.linalg.norm(loss.direction @ x) for x in (j, np.delete(j, failed, axis=1)))
+            assert loss.kept == pytest.approx(reduced / healthy, abs=1e-12)
+
+
+def test_losses_of_a_singular_arm_are_those_of_its_motions(rng):
+    column_space = np.linalg.qr(rng.normal(size=(6, 4))).Q
+    inner = rng.normal(size=(4, 7))
+    found, expected = find_speed_losses(column_space @ inner, [1, 4]), find_speed_losses(inner, [1, 4])
+    assert len(found) == 2
+    for loss, inner_loss in zip(found, expected, strict=True):
+        assert loss.kept == pytest.approx(inner_loss.kept, abs=1e-13)
+        assert abs(loss.direction @ column_space @ inner_loss.direction) == pytest.approx(1, abs=1e-12)
+
+
+def test_without_redundancy_and_with_many_locks_directions_are_lost(rng):
+    for columns, failed, count in ((4, (1,), 1), (6, (0, 2, 3), 3), (6, (0, 1, 2, 3, 5), 4), (6, tuple(range(6)), 4)):
+        found = find_speed_losses(rng.normal(size=(4, columns)), failed)
+        assert len(found) == count
+        assert sum(loss.lost for loss in found) == min(count, len(failed) - (columns - 4))
+        directions = np.array([loss.direction for loss in found])
+        np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1)
+        assert np.linalg.matrix_rank(directions) == count
+
+
+def test_a_joint_that_does_not_move_the_tool_takes_nothing(rng):
+    j = rng.normal(size=(3, 6))
+    j[:, 4] = 0.0
+    first, second = find_speed_losses(j, [2, 4])
+    assert (first.kept, second.kept) == pytest.approx((find_speed_losses(j, [2])[0].kept, 1.0), abs=1e-14)
+    assert second.kept <= 1
+    assert np.linalg.norm(second.direction) == pytest.approx(1)
 
 
 def test_share_of_one_joint_is_its_relative_manipulability(mixed7, rng):
@@ -51,7 +189,7 @@ def test_share_of_one_joint_is_its_relative_manipulability(mixed7, rng):
     q = rng.uniform(-1, 1, 7)
     j = mixed7.jacobian(q)
     for k, value in enumerate(rho.by_joint(q)):
-        assert find_speed_losses(j, [k])[0].kept == pytest.approx(value, abs=1e-9)
+        assert find_speed_losses(j, [k])[0].kept == pytest.approx(value, abs=1e-13)
 
 
 def test_a_direction_that_only_one_joint_makes_is_lost(rng):
@@ -61,7 +199,7 @@ def test_a_direction_that_only_one_joint_makes_is_lost(rng):
     j -= np.outer(axis, axis @ j)  # no joint moves along the axis ...
     j[:, 2] += axis  # ... but one
     (loss,) = find_speed_losses(j, [2])
-    assert loss.lost
+    assert loss.kept < 1e-13
     assert abs(loss.direction @ axis) == pytest.approx(1)
     np.testing.assert_allclose(loss.direction @ np.delete(j, 2, axis=1), 0, atol=1e-12)
 

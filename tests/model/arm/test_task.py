@@ -57,6 +57,10 @@ def test_chosen_rows_in_their_order(frame, mixed8, rng):
         assert task.name == "+".join(rows)
         expected = oracles.task_jacobian(mixed8, q, rows, frame, 0.5)
         np.testing.assert_allclose(jacobian(task, mixed8, q), expected, atol=1e-13)
+        unscaled = oracles.task_jacobian(mixed8, q, rows, frame, 1.0)
+        for row, values in zip(q, unscaled, strict=True):
+            world_rows = task.world_rows(oracles.forward(mixed8, row[None])[0, :3, :3])
+            np.testing.assert_allclose(world_rows @ oracles.jacobian(mixed8, row[None])[0], values, atol=1e-13)
     assert task_from_rows(["vx"], name="reach").name == "reach"
 
 

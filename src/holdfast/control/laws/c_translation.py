@@ -1,8 +1,8 @@
 """Translation of C99 with loops to JavaScript, so that a search that is written in C runs in a browser as well.
 
 The translation has the forms of ``c/damping_search.c``: enumerations, tables of small integers, structures of ``double``, and
-static functions with loops and choices. It does not convert values, so variables of type ``int`` must be assigned whole numbers,
-a quotient must have an operand of type ``double``, and a condition must not be NaN.
+static functions with loops and choices. It does not convert values, so variables of type ``int`` must be assigned whole
+numbers, a quotient must have an operand of type ``double``, and a condition must not be NaN.
 """
 
 from __future__ import annotations
@@ -20,8 +20,12 @@ _ITEM_PATTERN = re.compile(
 )
 _JAVASCRIPT_NAMES = {"fabs": "Math.abs", "sqrt": "Math.sqrt", "exp": "exponential", "log": "logarithm", "copysign": "copySign"}
 _JAVASCRIPT_NAMES["HUGE_VAL"] = "Infinity"
-_KEYWORDS = {"for", "if", "else", "while", "break", "continue", "return", "let"}
-_ASSIGNED = r"(?:[-+*/|]?=(?!=)|\+\+|--)"
+_SHARED_KEYWORDS = {"for", "if", "else", "while", "break", "continue", "return", "let"}
+_RESERVED_NAMES = """
+in new let var this null true false class super function delete typeof instanceof with yield await try catch finally throw
+import export debugger arguments eval Array Math Infinity
+"""
+_ASSIGNMENT_PATTERN = r"(?:[-+*/|]?=(?!=)|\+\+|--)"
 _UNKNOWN_OPERATOR = r"""<<|>>|[]]\.\w+[-+*/|]?=(?!=)|->|--|!(?!=)|[%~^#"'\\@$`]|(?<!&)&(?!&)|(?<!\|)\|(?![|=])"""
 
 
@@ -101,25 +105,37 @@ def _translate_function(
         return clearing + (f"let {','.join(variables)};" if variables else "")
 
     count = len(arguments)
-    for name in set(re.findall(rf"(?<![\w.>])(\w+)\.\w+{_ASSIGNED}", body)):
+    for name in set(re.findall(rf"(?<![\w.>])(\w+)\.\w+{_ASSIGNMENT_PATTERN}", body)):
         if name in arguments or re.search(rf"[=(,?:]{name}\b(?!\.)|\b{name}=(?!=)(?!\{{)", body):
             raise _make_refusal(f"{name}.member = ", function)  # JavaScript would change the copies of the structure, too
     body = re.sub(rf"(?:(?<=[;{{}}(])|^)(?:const )?({types}) ([^;]+);", declare, body)
     body = re.sub(r"(?<![\w)\]])\*(\w+)(?![\w\[.-])", lambda m: f"{m[1]}[0]" if m[1] in arrays else m[0], body)
-    body = re.sub(r"(?<=[(,])&(\w+)(?=[,)])", r"\1", body).replace("->", ".")
-    whole_names, array_names = "|".join(sorted(whole)) or "0", "|".join(sorted(arrays)) or "0"
+    body = re.sub(r"(?<=[(,])&(\w+)(?=[,)])", lambda m: m[1] if m[1] in arrays else m[0], body).replace("->", ".")
+    whole_names, array_names = ("|".join(sorted(group)) or "(?!)" for group in (whole, arrays))
     unknown = re.search(
-        rf"{_UNKNOWN_OPERATOR}|(?<![\w)\]])\*|/(?:{whole_names}|\d+)\b(?!\.)|(?<![\w.])(?:{whole_names})/"
+        rf"{_UNKNOWN_OPERATOR}|(?<![\w)\]])\*|\w*/(?:{whole_names}|\d+)\b(?!\.)|(?<![\w.])(?:{whole_names})/"
         rf"|(?<![\w.])(?:{array_names})\b(?![\[.,)])|[-+=](?:{array_names})\b(?![\[.])",
         re.sub(r"let [^;]*;", lambda m: m[0].replace("{", " ").replace(":", " "), body),
     )
     if unknown:
         raise _make_refusal(unknown[0], function)
     members_known = {member for members in structures.values() for member in members}
-    known = {*names, *arguments, *integers, *members_known, *_KEYWORDS, "Array", "length", "new", "fill", "forEach", "row"}
-    for word in re.findall(r"(?<![\w.])[A-Za-z_]\w*", body):
-        if word not in known:
-            raise _make_refusal(word, function)
+    known = {
+        *names,
+        *arguments,
+        *integers,
+        *members_known,
+        *_SHARED_KEYWORDS,
+        "Array",
+        "length",
+        "new",
+        "fill",
+        "forEach",
+        "row",
+    }
+    words = re.findall(r"(?<![\w.])[A-Za-z_]\w*", body)
+    if refused := [*set(_RESERVED_NAMES.split()).intersection(arguments), *(word for word in words if word not in known)]:
+        raise _make_refusal(refused[0], function)
     body = re.sub(r"(?<![\w.])[A-Za-z_]\w*", lambda m: _JAVASCRIPT_NAMES.get(m[0], m[0]), body)
     text = f"({','.join(arguments[:count])})=>{{{body}}}"
     return f"const {function}=" + (f"(()=>{{const {','.join(kept)};return {text};}})();" if kept else f"{text};")

@@ -26,17 +26,16 @@ from holdfast.interface.report.palette import BLUE, FAINT, GREEN, ORANGE, PURPLE
 
 _TAN_HALF_VIEW_ANGLE = np.tan(np.radians(14))  # the same angle of view as in camera.ts
 _DRAWING_SIDE_PX = 400  # side of the square that a view always contains; it draws beyond the square where there is room
-_RING_CORNERS = 24  # corners of each flat end of a tube, as in hulls.ts
-_BALL_CORNERS = 96
-_MESH_DIRECTIONS = 320
+_RING_CORNERS = 20  # corners of each end of a tube, as in hulls.ts
+_MESH_DIRECTIONS = 320  # directions in which a mesh keeps its extreme vertex, as in hulls.ts
 _HULL_DIRECTIONS = 72  # directions on the drawing in which a hull has its corners
-_GREEN = f"var(--view3d-green, {GREEN})"  # the palette of viewer.css, and a colour for pages without it
-_BLUE = f"var(--view3d-blue, {BLUE})"
-_PURPLE = f"var(--view3d-purple, {PURPLE})"
-_ORANGE = f"var(--view3d-orange, {ORANGE})"
-_SOFT = f"var(--view3d-soft, {SOFT})"
-_FAINT = f"var(--view3d-faint, {FAINT})"
-_OUTLINE = f"var(--view3d-outline, {SOFT})"
+_DRAWING_COLORS = {  # those of viewer.css; a page without it has the second colour
+    name: f"var(--view3d-{name}, {color})"
+    for name, color in (
+        *(("green", GREEN), ("blue", BLUE), ("purple", PURPLE), ("orange", ORANGE)),
+        *(("soft", SOFT), ("faint", FAINT), ("outline", SOFT)),
+    )
+}
 _VIEW_NOTE = '<p class="view3d-note view3d-once">{}</p>'
 _BODY_HTML = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
@@ -230,15 +229,12 @@ def part_corners(part: Mapping[str, Any]) -> FloatArray:
         vertices = np.array(low) + np.frombuffer(b64decode(points), "<u2").reshape(-1, 3) * (side / 65535)
         return np.asarray(vertices[np.unique(np.argmax(vertices @ _spread_directions(_MESH_DIRECTIONS).T, axis=0))])
     start, end, radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
-    if part["round"]:
-        directions = _spread_directions(_BALL_CORNERS)
-    else:
-        axis = (end - start) / np.linalg.norm(end - start)
-        first = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
-        first /= np.linalg.norm(first)
-        angles = np.linspace(0, 2 * np.pi, _RING_CORNERS, endpoint=False)[:, None]
-        directions = np.cos(angles) * first + np.sin(angles) * np.cross(axis, first)
-    return np.concatenate([start + radius * directions, end + radius * directions])
+    axis = (end - start) / np.linalg.norm(end - start)
+    first = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
+    first /= np.linalg.norm(first)
+    angles = np.linspace(0, 2 * np.pi, _RING_CORNERS, endpoint=False)[:, None]
+    ring = radius * (np.cos(angles) * first + np.sin(angles) * np.cross(axis, first))
+    return np.concatenate([start + ring, end + ring])
 
 
 def _spread_directions(count: int) -> FloatArray:
@@ -251,7 +247,7 @@ def _spread_directions(count: int) -> FloatArray:
 
 def draw_scene_svg(scene: ViewerScene, about: str) -> str:
     """Draw the initial view of the scene as SVG, and the last frame of a motion as a transparent arm."""
-    data = scene.data
+    data, colors = scene.data, _DRAWING_COLORS
     right, upward, towards_camera, distance = camera_axes(data["camera"], data["up"])
     center = np.array(data["camera"]["center"])
 
@@ -269,7 +265,8 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
     def draw_label(text: str, point: ArrayLike) -> str:
         x, y = project(point)
         x = np.clip(x, 3.6 * len(text), _DRAWING_SIDE_PX - 3.6 * len(text))
-        return f'<text x="{x:.1f}" y="{y - 12:.1f}" font-size="13" text-anchor="middle" fill="{_ORANGE}">{escape(text)}</text>'
+        text_style = f'font-size="13" text-anchor="middle" fill="{colors["orange"]}"'
+        return f'<text x="{x:.1f}" y="{y - 12:.1f}" {text_style}>{escape(text)}</text>'
 
     def draw_arm(arm: int, frame: int, opacity: float = 1.0, marks: bool = False) -> str:
         """Draw the hulls of an arm, objects and far parts first, or the marks of failed joints."""
@@ -287,15 +284,15 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
                 hull = _draw_hull(part, project(points), failed.get(part.get("joint"), color))
                 shapes.append(("object" not in part, -depth_mm, hull))
         hulls = "".join(hull for *_, hull in sorted(shapes, key=lambda shape: shape[:2]))
-        return f'<g stroke="{_OUTLINE}" opacity="{opacity}">{hulls}</g>'
+        return f'<g stroke="{colors["outline"]}" opacity="{opacity}">{hulls}</g>'
 
-    failures = dict.fromkeys(data["free"], (_PURPLE, 0.0))
-    failures |= {joint: (_ORANGE, since) for joint, since in enumerate(data["locked"]) if since is not None}
-    arm_colors = ("currentColor", _GREEN, _BLUE, _PURPLE, _ORANGE)
+    failures = dict.fromkeys(data["free"], (colors["purple"], 0.0))
+    failures |= {joint: (colors["orange"], since) for joint, since in enumerate(data["locked"]) if since is not None}
+    arm_colors = ["currentColor", *colors.values()]
     elements = [
         f'<svg viewBox="0 0 {_DRAWING_SIDE_PX} {_DRAWING_SIDE_PX}" role="img" aria-label="{escape(about, quote=True)}" '
         'stroke-linejoin="round" stroke-linecap="round">',
-        draw_lines(_floor_lines(data), _FAINT, 1),
+        draw_lines(_floor_lines(data), colors["faint"], 1),
     ]
     arms, last_frame = range(len(scene.frames)), scene.frames.shape[1] - 1
     elements += [draw_arm(arm, last_frame, 0.5) for arm in reversed(arms) if last_frame]
@@ -306,19 +303,19 @@ def draw_scene_svg(scene: ViewerScene, about: str) -> str:
             [[(box["high"] if index >> axis & 1 else box["low"])[axis] for axis in range(3)] for index in range(8)]
         )
         edges = [(corner, corner | bit) for corner in range(8) for bit in (1, 2, 4) if not corner & bit]
-        elements.append(draw_lines(corners[edges], _SOFT, 1.4))
+        elements.append(draw_lines(corners[edges], colors["soft"], 1.4))
     if len(data["path"]) > 1:
-        elements.append(draw_lines(data["path"], _ORANGE, 1.8, ' stroke-dasharray="5 4"'))
+        elements.append(draw_lines(data["path"], colors["orange"], 1.8, ' stroke-dasharray="5 4"'))
     if last_frame:
-        elements.append(draw_lines(scene.frames[:, :, -1, :3, 3], _BLUE, 2.4))
+        elements.append(draw_lines(scene.frames[:, :, -1, :3, 3], colors["blue"], 2.4))
     for target in data["targets"]:
         x, y = project(np.reshape(target, (3, 4))[:, 3])
-        elements.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="{_ORANGE}" stroke-width="2"/>')
+        elements.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="{colors["orange"]}" stroke-width="2"/>')
     tool = scene.frames[0, -1, -1, :3, 3]
     for lost_direction in data["lost"]:
         half_line = 0.26 * data["size"] * np.array(lost_direction["twist"][:3])
         elements += [
-            draw_lines([tool - half_line, tool + half_line], _ORANGE, 3),
+            draw_lines([tool - half_line, tool + half_line], colors["orange"], 3),
             draw_label(lost_direction["words"], tool + half_line),
         ]
     for index, joint in enumerate(data["joints"]):
@@ -337,7 +334,7 @@ def _draw_hull(part: Mapping[str, Any], points: FloatArray, color: str) -> str:
     extremes = np.argmax(points @ [np.cos(turn), np.sin(turn)], axis=0)
     attributes = f'fill="{color}"' + (' opacity="0.35"' if "object" in part else "")
     hull = f'<polygon points="{_format_points(points[list(dict.fromkeys(extremes.tolist()))])}" {attributes}/>'
-    if "tube" in part and not part["round"]:
+    if "tube" in part:
         for ring in (points[:_RING_CORNERS][::-1], points[_RING_CORNERS:]):
             x, y = ring.T
             if x @ np.roll(y, -1) < y @ np.roll(x, -1):  # the ring turns as seen from outside

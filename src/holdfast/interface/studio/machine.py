@@ -156,11 +156,8 @@ class CompiledArm:
         from scipy.spatial.transform import Rotation
 
         tool = self.tool_pose(q)
-        to_task_frame = tool[:3, :3].T if self.task.frame == "tool" else np.eye(3)
         angular = Rotation.from_matrix(pose[:3, :3] @ tool[:3, :3].T).as_rotvec()
-        return float(
-            np.linalg.norm(self.task.rows @ np.r_[to_task_frame @ (pose[:3, 3] - tool[:3, 3]), to_task_frame @ angular])
-        )
+        return float(np.linalg.norm(self.task.world_rows(tool[:3, :3]) @ np.r_[pose[:3, 3] - tool[:3, 3], angular]))
 
     def nearby_configuration(self, q: FloatArray) -> FloatArray:
         """Return a configuration near q (n,) within the limits, whose pose is a reachable target."""

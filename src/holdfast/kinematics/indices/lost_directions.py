@@ -10,10 +10,12 @@ import numpy as np
 from holdfast.core.typing import FloatArray
 from holdfast.kinematics.indices.index import SINGULAR_RATIO
 
+MIN_ANGULAR_SINGULAR_VALUE = 1e-9  # smaller ones are rounding errors, because the columns contain unit axes
+
 
 @dataclass(frozen=True)
 class Ellipsoid:
-    """Ellipsoid of the tool-point velocities for joint rates of norm 1; Yoshikawa 1985.
+    """Ellipsoid of the velocities of the tool point at joint rates of norm 1.
 
     Attributes:
         axes: (3, 3) principal axes as the columns of a rotation, world frame.
@@ -42,14 +44,22 @@ class DirectionLoss:
         return self.kept <= 1e-6
 
 
-def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellipsoid:
-    """Return the manipulability ellipsoid of the tool point.
+def find_tool_ellipsoid(linear: FloatArray, angular: FloatArray, failed: Sequence[int] = ()) -> Ellipsoid:
+    """Return the ellipsoid of a tool that does not rotate about the axes that the task prescribes.
+
+    With ``J_l`` and ``J_a`` the reduced linear and angular rows, its matrix is ``J_l J_l' - J_l J_a' (J_a J_a')^-1 J_a J_l'``,
+    the inverse of the linear block of ``(J J')^-1``. It is flat along the linear part of a lost direction. Without angular
+    rows it is the manipulability ellipsoid of Yoshikawa 1985.
 
     Args:
-        j: (3, n) linear rows of the Jacobian, world frame.
+        linear: (3, n) linear rows of the Jacobian, world frame.
+        angular: (a, n) angular rows of the Jacobian that the task prescribes, in any frame; they may be dependent or zero.
         failed: Indices from 0 of the joints that do not move.
     """
-    directions, sigma, _ = np.linalg.svd(zero_failed_columns(j, failed), full_matrices=True)
+    _, sigma, vt = np.linalg.svd(zero_failed_columns(angular, failed), full_matrices=False)
+    rotating = vt[sigma > MIN_ANGULAR_SINGULAR_VALUE]
+    velocities = zero_failed_columns(linear, failed)
+    directions, sigma, _ = np.linalg.svd(velocities - velocities @ rotating.T @ rotating)
     radii = np.zeros(3)
     radii[: sigma.size] = sigma
     if np.linalg.det(directions) < 0:
@@ -60,9 +70,9 @@ def manipulability_ellipsoid(j: FloatArray, failed: Sequence[int] = ()) -> Ellip
 def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLoss]:
     """Return the directions in which locking joints reduces the speed most, worst first; as many as joints fail, at most m.
 
-    With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
-    ``u = U S^-1 w`` with w a right singular vector of W, speeds shrink to ``sqrt(1 - sigma(W)^2)``, and across these
-    directions nothing changes. For one joint k this fraction is its relative manipulability rho_k (Abdi et al. 2012, eq. (3)).
+    With ``J_F`` the failed joints' columns of J, and c a left singular vector of their rows of an orthonormal null-space basis
+    of J, the singular value is the fraction of the speed that remains along ``(J J')^-1 J_F c``; across these directions
+    nothing changes. For one joint k this fraction is its relative manipulability rho_k (Abdi et al. 2012, eq. (3)).
     Directions that the healthy arm lacks are left out.
 
     Args:
@@ -71,19 +81,17 @@ def find_speed_losses(j: FloatArray, failed: Sequence[int]) -> list[DirectionLos
     """
     if not len(failed):
         return []
-    u, sigma, vt = np.linalg.svd(j, full_matrices=False)
+    u, sigma, vt = np.linalg.svd(j)
     rank = int((sigma > SINGULAR_RATIO * sigma[0]).sum()) if sigma.size and sigma[0] > 0 else 0
     if rank == 0:
         return []
-    w = vt[:rank, list(failed)].T  # (failed, rank)
-    _, fractions, right = np.linalg.svd(w, full_matrices=False)
-    # cos(asin(x)) loses digits near 1; the null space avoids this by 1 - s^2 = (1 - s)(1 + s).
-    remaining = np.sqrt(np.clip((1 - fractions) * (1 + fractions), 0.0, 1.0))
-    found_losses = []
-    for k, direction in zip(remaining, right, strict=True):
-        along_direction = u[:, :rank] @ (direction / sigma[:rank])
-        found_losses.append(DirectionLoss(float(k), along_direction / np.linalg.norm(along_direction)))
-    return sorted(found_losses, key=lambda loss: loss.kept)
+    combinations, fractions, _ = np.linalg.svd(vt[rank:, list(failed)].T)  # (failed, failed), at most r fractions
+    remaining = np.r_[np.minimum(fractions, 1.0), np.zeros(len(failed) - len(fractions))][::-1]
+    # The columns are orthogonal already; QR gives a unit vector also for a joint that does not move the tool.
+    row_space_vectors = np.linalg.qr(vt[:rank, list(failed)] @ combinations[:, ::-1]).Q
+    directions = u[:, :rank] @ (row_space_vectors / sigma[:rank, None])
+    directions /= np.linalg.norm(directions, axis=0)
+    return [DirectionLoss(float(kept), direction) for kept, direction in zip(remaining, directions.T, strict=False)]
 
 
 def remaining_manipulability(losses_found: Sequence[DirectionLoss]) -> float:

@@ -77,6 +77,10 @@ class Task(Presentable):
         """True if the task has all six rows, so that any frame and reference point give the same subspace."""
         return self.m == 6
 
+    def world_rows(self, tool_rotation: FloatArray) -> FloatArray:
+        """Return the rows (m, 6) of a twist in the world for the rotation (3, 3) of the tool."""
+        return np.asarray(self.rows @ np.kron(np.eye(2), tool_rotation.T)) if self.frame == "tool" else self.rows
+
     def error(self, twist: SX, tool_rotation: SX) -> SX:
         """Return the task rows (m,) of a world-frame error or ``twist`` (6,), m and rad, for ``tool_rotation`` (3, 3)."""
         if self.frame == "tool":

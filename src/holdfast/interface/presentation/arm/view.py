@@ -316,11 +316,10 @@ def _find_lost_directions(arm: Arm, q: FloatArray, failed: Sequence[int], task: 
     if not failed:
         return []
     task_rows = as_task(arm, task or default_task(arm.name, arm))
-    rotation = np.kron(np.eye(2), arm.frames(q)[-1][:3, :3].T if task_rows.frame == "tool" else np.eye(3))
-    world_rows = task_rows.rows @ rotation
+    world_rows = task_rows.world_rows(arm.frames(q)[-1][:3, :3])
     scale = np.array([1 / task_rows.length] * 3 + [1.0] * 3)
     directions = []
-    for loss in find_speed_losses(task_rows.rows @ (scale[:, None] * (rotation @ arm.jacobian(q))), failed):
+    for loss in find_speed_losses((world_rows * scale) @ arm.jacobian(q), failed):
         if loss.kept <= _MARKED_SPEED_FRACTION:
             label = "lost" if loss.lost else f"{100 * loss.kept:.2g} % of the speed remains"
             directions.append({"twist": round_to_seven_digits(world_rows.T @ loss.direction), "words": label})

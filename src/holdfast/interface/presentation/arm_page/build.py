@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import shlex
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from html import escape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,6 +31,7 @@ from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, default_path_task
+from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 
 STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
@@ -78,7 +81,10 @@ def build_page(
         InputError: Not two laws are given, or arguments do not fit the arm.
     """
     if len(laws) != 2:
-        raise InputError(f"laws has {len(laws)} names; the page compares two control laws")
+        raise InputError(f"laws has {len(laws)} name{'s' * (len(laws) != 1)}; the page compares two control laws")
+    for name, count in Counter([arm.name, *(other.name for other in beside)]).items():
+        if count > 1:
+            raise InputError(f"two arms have the name '{name}'; the menu needs different names")
     texts = read_texts()
     sections = [_build_section(arm, q, locked, laws, target, task, cell, plain)]
     sections += [_build_section(other, None, (), laws, None, None, None, plain, hidden=True) for other in beside]
@@ -155,10 +161,11 @@ def _build_section(
     studio: dict[str, Any] | None = None,
     mesh_files: bool = True,
 ) -> _ArmSection:
-    texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
+    texts, page_task = read_texts(), as_task(arm, task or default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
     given_target = None if target is None else np.asarray(target, dtype=np.float64).tolist()
-    story = None if plain else _find_story(arm, page_task, start.tolist(), list(laws), given_target)
+    source = Path(simulate_story.__code__.co_filename).read_text(encoding="utf-8")
+    story = None if plain else _find_story(arm, page_task, start.tolist(), list(laws), given_target, source)
     labels = label_joints(arm)
     argument, options, _ = arms.command_words(arm)
     argument = argument if studio is None else studio["state"]["arm"]
@@ -177,7 +184,7 @@ def _build_section(
         "bound": bound,
         "gravity": round_to_seven_digits(arm.gravity),
         "story": story,
-        "texts": texts,
+        "texts": {key: text for key, text in texts.items() if studio is not None or not key.startswith("studio_")},
     }
     if studio is not None:
         data["studio"] = studio
@@ -186,22 +193,29 @@ def _build_section(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
         for k, step in enumerate(STEP_NAMES)
     )
-    html = (
-        f'<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>\n'
-        f'<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>\n'
-        f'<div class="arm-panel">\n<p class="arm-headline">{escape(texts["healthy_before"])}</p>\n'
-        f'<p class="arm-detail">{escape(texts["healthy_detail"])}</p>\n<p class="visually-hidden" aria-live="polite"></p>\n{bars}\n'
-        + ("" if plain else f'<ol class="arm-steps" hidden>{steps}</ol>\n<div class="step-controls"></div>\n')
-        + '<details class="arm-commands"></details>\n</div>\n'
-        f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
-        f'<script type="application/json" class="arm-data">{to_script_json(data)}</script>\n</section>'
-    )
+    attributes = f'data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" * hidden}'
+    html = f"""<section class="arm" {attributes}>
+<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>
+<div class="arm-panel">
+<p class="arm-headline">{escape(texts["healthy_before"])}</p>
+<p class="arm-detail">{escape(texts["healthy_detail"])}</p>
+<p class="visually-hidden" aria-live="polite"></p>
+{bars}
+{"" if plain else f'<ol class="arm-steps" hidden>{steps}</ol><div class="step-controls"></div>'}
+<details class="arm-commands"></details>
+</div>
+<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>
+<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>
+</section>"""
     return _ArmSection(html, print_page_kernels(arm, page_task, () if story is None else laws))
 
 
 @cached_json
-def _find_story(arm: Arm, task: Task, start: list[float], laws: list[str], target: list[float] | None) -> dict[str, Any] | None:
-    """Simulate the story of an arm, which takes a second, once for each start."""
+def _find_story(
+    arm: Arm, task: Task, start: list[float], laws: list[str], target: list[float] | None, source: str
+) -> dict[str, Any] | None:
+    """Simulate the story of an arm once; ``source`` is the text that computes it, which the digest of the cache leaves out."""
+    del source
     q = np.array(start)
     story = simulate_story(arm, task, q, find_prepared(arm, task, q), laws, target)
     return None if story is None else asdict(story)
@@ -219,10 +233,12 @@ def _write_python_arm(arm: Arm, argument: str) -> str:
 def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:
     worst = int(np.argmin(fractions))
     buttons = [
-        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
+        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" '
+        f'style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
         f'<span class="bar-value">{format_percent(fraction)}</span>'
-        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span></button>'
+        f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span>'
+        '<span class="visually-hidden"></span></button>'
         for k, (label, fraction) in enumerate(zip(labels, fractions, strict=True))
     ]
     note = texts["bound"].format(count=len(labels), bound=format_percent(bound))

@@ -9,7 +9,6 @@ import casadi as ca
 
 from holdfast.control.falls.passive_arm import PassiveArm
 from holdfast.control.laws.law import by_name
-from holdfast.kernels.disk_cache import cached_json
 from holdfast.kernels.javascript.functions import define_functions
 from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.linalg import factor_householder
@@ -30,22 +29,10 @@ def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinver
         task: Task of the page, for the null space and the inverse kinematics.
         laws: Labels of control laws, which move the tool point of the arm; none for an arm with too few joints for that.
     """
-    return _print_programs(arm, task, tuple(laws))
-
-
-@cached_json
-def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
     q = kinematics.joint_symbols(arm)
-    programs = {
-        "frames": Program("frames", [q], [kinematics.body_poses(arm, q)]),
-        "jacobian": Program("Jacobian", [q], [ca.densify(kinematics.world_jacobian(arm, q))]),
-        "nullSpace": Program("null space", [q], [_null_space_basis(arm, task, q)]),
-        "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
-        "accelerations": _accelerations_program(arm, q),
-    }
     lines: list[str] = []
     members = []
-    for name, program in programs.items():
+    for name, program in make_page_programs(arm, task, q).items():
         lines.append("" if program is None else write_javascript(program, name, with_functions=False))
         members.append(f"{name}:null" if program is None else name)
     members_of_laws = []
@@ -56,8 +43,19 @@ def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
     return f"(()=>{{{define_functions(body)}{body}return {{{','.join(members)},laws:{{{','.join(members_of_laws)}}}}};\n}})()"
 
 
+def make_page_programs(arm: Arm, task: Task, q: SX) -> dict[str, Program | None]:
+    """Return the programs of the kernels by name, without the control laws, for joint symbols ``q`` (n,)."""
+    return {
+        "frames": Program("frames", [q], [kinematics.body_poses(arm, q)]),
+        "jacobian": Program("Jacobian", [q], [ca.densify(kinematics.world_jacobian(arm, q))]),
+        "nullSpace": Program("null space", [q], [_null_space_basis(arm, task, q)]),
+        "inverseKinematicsStep": _inverse_kinematics_program(arm, task, q),
+        "accelerations": _accelerations_program(arm, q),
+    }
+
+
 def _null_space_basis(arm: Arm, task: Task, q: SX) -> SX:
-    """Return an orthonormal basis (n, n - m) of the null space of the task Jacobian, which is empty for n <= m."""
+    """Return an orthonormal basis (n, n - m) of the null space of the task Jacobian, or (n, 0) without redundancy."""
     if arm.n <= task.m:
         return ca.SX(arm.n, 0)
     # All six rows have the same null space in every frame, and one frame has the fewest operations.

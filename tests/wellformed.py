@@ -42,7 +42,8 @@ def check(html: str, scripts: int = 0) -> Checker:
     assert {kind for kind, _ in found} <= {"", ' id="page"', ' type="application/json"'}
     for _, script in found:
         for reach in ("fetch(", "XMLHttpRequest", "http:", "https:", "eval(", "innerHTML", "import "):
-            assert reach not in script, reach
+            # The name of SVG loads nothing, and Python's imports are only shown.
+            assert reach not in re.sub(r"http://www\.w3\.org/2000/svg|import \w+ as \w+|from [\w.]+ import", "", script), reach
     assert len(checker.ids) == len(set(checker.ids))
     for target in re.findall(r"(?:src|href|srcset|action)\s*=\s*[\"']([^\"']*)", html):
         assert target.startswith(("#", "data:image/png")), target
