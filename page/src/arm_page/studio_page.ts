@@ -43,6 +43,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   /** The state without what `PageState` has: choices, target, objects, and files. */
   readonly studio: StudioState = { ...this.data.studio.state };
   reading: Answers["reading"] | null = null;
+  private readonly ownNote = this.find(".bars-note")?.textContent ?? "";
   private asking = false;
   private stale = false;
   private job: AbortController | null = null;
@@ -217,24 +218,21 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   protected override barValues(): BarValues {
     const answer = this.reading?.index ?? "";
-    const note = this.find(".bars-note") as HTMLElement;
-    this.ownNote ??= note.textContent ?? "";
+    const { texts, jointLabels } = this.data;
     const isOwn = this.studio.index === OWN_INDEX;
-    this.find(".bars")?.toggleAttribute("data-other-index", !isOwn);
-    if (isOwn) {
-      note.textContent = this.ownNote;
-      return super.barValues();
-    }
+    const note = isOwn ? this.ownNote : typeof answer === "string" ? answer
+      : fillText(texts[`studio_${answer.better}`], { title: answer.title, unit: commonUnit(answer) }) +
+        (answer.status ? ` (${answer.status})` : "");
+    (this.find(".bars-note") as HTMLElement).textContent = note;
+    const bars = this.find(".bars") as HTMLElement;
+    bars.toggleAttribute("data-other-index", !isOwn);
+    bars.setAttribute("aria-label", note);
+    if (isOwn) return super.barValues();
     if (typeof answer === "string") {
-      note.textContent = answer;
-      return { fractions: this.data.jointLabels.map(() => 0), texts: this.data.jointLabels.map(() => ""), worst: -1, meaning: "" };
+      return { fractions: jointLabels.map(() => 0), texts: jointLabels.map(() => ""), worst: -1, meaning: texts.studio_bar };
     }
-    note.textContent = fillText(this.data.texts[`studio_${answer.better}`], { title: answer.title, unit: commonUnit(answer) }) +
-      (answer.status ? ` (${answer.status})` : "");
-    return { ...scaleBars(answer), worst: answer.worst, meaning: this.data.texts.studio_bar };
+    return { ...scaleBars(answer), worst: answer.worst, meaning: texts.studio_bar };
   }
-
-  private ownNote: string | null = null;
 
   /** Bars for joints that lose their torque. */
   private listWeights(bars: JointBars | string): HTMLElement[] {
