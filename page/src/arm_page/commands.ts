@@ -5,16 +5,27 @@ import type { Vector } from "../viewer/scene";
 import type { PageState } from "./address";
 import type { ArmPageData } from "./data";
 
-export interface Reproduction {
+interface Reproduction {
   shell: string;
   python: string;
+}
+
+/** Code that reproduces a state. */
+export interface Code {
+  kind: "studio" | "shell" | "python";
+  text: string;
 }
 
 /**
  * Return the command and the Python lines for the numbers of a state; `worst` is the joint with the worst bar, from 0, and
  * `target` the target of the undetected lock, m.
  */
-export function reproduce(data: ArmPageData, state: PageState, worst: number, target: Vector): Reproduction {
+export function reproduce(data: ArmPageData, state: PageState, worst: number, target: Vector): Code[] {
+  const { shell, python } = writeCode(data, state, worst, target);
+  return [{ kind: "shell", text: shell }, { kind: "python", text: python }];
+}
+
+function writeCode(data: ArmPageData, state: PageState, worst: number, target: Vector): Reproduction {
   const q = Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(", ");
   const numbers = `"${q.replace(/ /g, "")}"`;
   const failed = state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
@@ -30,8 +41,6 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number, ta
     return { shell: `holdfast describe ${data.argument}`, python: python("print(arm)") };
   }
   switch (state.step) {
-    case "healthy":
-      return index;
     case "lock":
       if (failed.length < 2) return index;
       return { shell: index.shell, python: python(
@@ -77,26 +86,21 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number, ta
         ),
       };
     }
+    default:
+      return index;
   }
 }
 
-/** Show the command and the Python lines, each with a button that copies it, and a button for the address. */
-export function writeCommands(details: HTMLElement, data: ArmPageData, state: PageState, worst: number, target: Vector): void {
-  const { texts } = data;
-  const { shell, python } = reproduce(data, state, worst, target);
+/** Show commands and Python lines, each with a button that copies it, and a button for the address. */
+export function writeCommands(details: HTMLElement, texts: Record<string, string>, list: Code[]): void {
   const status = h("span", { role: "status" });
   const copy = (text: () => string, label: string): HTMLButtonElement =>
     h("button", { type: "button", onclick: () => void copyText(text()).then(() => (status.textContent = texts.copied)) }, label);
-  details.replaceChildren(
-    h("summary", {}, texts.commands),
-    h("pre", { tabindex: 0, class: "command-shell" }, shell),
-    copy(() => shell, texts.copy_command),
-    h("pre", { tabindex: 0, class: "command-python" }, python),
-    copy(() => python, texts.copy_python),
-    " ",
-    copy(() => location.href, texts.copy_address),
-    status,
-  );
+  const blocks = list.flatMap(({ kind, text }) => [
+    h("pre", { tabindex: 0, class: `command-${kind}` }, text),
+    copy(() => text, texts[`copy_${kind}`]),
+  ]);
+  details.replaceChildren(h("summary", {}, texts.commands), ...blocks, " ", copy(() => location.href, texts.copy_address), status);
 }
 
 /** Copy a text, also in a page that has no clipboard, for example in a sandboxed frame. */
