@@ -219,7 +219,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   }
 
   /** Tell a screen reader, the address, and the commands once nothing has changed for a while. */
-  private reportRest(headline: string): void {
+  protected reportRest(headline: string): void {
     const live = this.find("[aria-live]") as HTMLElement;
     if (live.textContent !== headline) live.textContent = headline;
     try {
@@ -227,6 +227,10 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     } catch {
       // A page in a sandboxed frame has no address of its own.
     }
+    this.showCode();
+  }
+
+  protected showCode(): void {
     writeCommands(this.find(".arm-commands") as HTMLElement, this.data.texts, this.listCode());
   }
 
