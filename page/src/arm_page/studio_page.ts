@@ -45,7 +45,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   reading: Answers["reading"] | null = null;
   private readonly ownNote = this.find(".bars-note")?.textContent ?? "";
   private asking = false;
-  private stale = false;
+  private askedState = "";
   private job: AbortController | null = null;
   private readonly status = h("p", { class: "studio-status", role: "status" });
   private readonly progress = h("progress", { "aria-label": this.data.texts.studio_progress });
@@ -172,11 +172,10 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   /** Ask for the numbers of the present state, one question at a time. */
   private async askReading(): Promise<void> {
-    this.stale = true;
     if (this.asking) return;
     this.asking = true;
-    while (this.stale) {
-      this.stale = false;
+    while (this.askedState !== JSON.stringify(this.studioState)) {
+      this.askedState = JSON.stringify(this.studioState);
       try {
         this.reading = await ask("reading", this.data.studio.token, this.studioState);
         this.showReading(this.reading);
@@ -185,6 +184,11 @@ export class StudioPage extends ArmPage<StudioPageData> {
       }
     }
     this.asking = false;
+  }
+
+  protected override reportRest(headline: string): void {
+    super.reportRest(headline);
+    void this.askReading();
   }
 
   /** A target for the end effector: the chosen one, or one near the tool. */
@@ -213,6 +217,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
     this.view.touchedObject = nearest?.blocked ? this.data.studio.objects.findIndex(({ name }) => name === nearest.name) : -1;
     this.weights.replaceChildren(...this.listWeights(susceptibility));
     this.parts.showReading?.();
+    this.showCode();
     this.draw();
   }
 
