@@ -95,7 +95,9 @@ def test_the_best_and_the_worst_configuration_have_the_same_tool_pose(studio, vi
     finish(page)
     found, now = ghosts(page), configuration(page)
     index = hf.indices.relative_manipulability(arm, "planar")
-    np.testing.assert_allclose(arm.forward_kinematics(found)[:, :2, 3], arm.forward_kinematics(now)[None, :2, 3].repeat(2, 0), atol=1e-6)
+    np.testing.assert_allclose(
+        arm.forward_kinematics(found)[:, :2, 3], arm.forward_kinematics(now)[None, :2, 3].repeat(2, 0), atol=1e-6
+    )
     best, worst, value = (float(index(q)) for q in (*found, now))
     assert best >= value >= worst
     numbers = [float(text) for text in re.findall(r"[\d.]+(?:e-\d+)?(?=[,;])", headline(page))]
@@ -348,7 +350,9 @@ def test_every_step_is_accessible(studio, visit, scheme, width):
         assert axe.serious(page) == []
         seen.append(headline(page))
         assert len(seen[-1].split()) <= 12
-    assert page.locator(".arm [aria-live]").first.text_content().replace("\N{NO-BREAK SPACE}", " ") == seen[-1].replace("\N{NO-BREAK SPACE}", " ")
+    assert page.locator(".arm [aria-live]").first.text_content().replace("\N{NO-BREAK SPACE}", " ") == seen[-1].replace(
+        "\N{NO-BREAK SPACE}", " "
+    )
     if width == 390:
         page.set_viewport_size({"width": 320, "height": 800})
         assert page.evaluate("document.documentElement.scrollWidth") <= 320
