@@ -267,7 +267,10 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   protected addPictureButtons(): void {
     const rotate = createToggle(this.data.texts.rotate, (on) => this.handles.forEach((handle) => handle.setRotating(on)));
-    const row = h("div", { class: "view3d-row" }, ...createViewButtons(this.view), this.rotationAxes.length ? rotate : null);
+    const goHome = (): void => this.setConfiguration(this.data.scene.arms[0].q[0]);
+    const home = h("button", { type: "button", onclick: goHome }, this.data.texts.home);
+    const toggle = this.rotationAxes.length ? rotate : null;
+    const row = h("div", { class: "view3d-row" }, ...createViewButtons(this.view), toggle, home);
     this.find(".view3d-controls")?.append(row);
   }
 
