@@ -1,12 +1,14 @@
 """W22: the page of an arm in Chromium without a graphics card: size, first picture, and pictures during a drag.
 
-The peer is the still page that viser's ``as_html`` writes of the same meshes; it can be rotated, but computes nothing.
+The peer is the still page that viser's ``as_html`` writes of as many tubes; it can be rotated, but computes nothing.
 Times are of headless Chromium: "paint" is the first contentful paint, and "ready" the time at which a drag can begin.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
+import re
 import statistics
 import sys
 import tempfile
@@ -52,21 +54,21 @@ _DRAG = """async count => {
 def write_pages(folder: Path) -> dict[str, Path]:
     """Write the pages to compare, and return their files by name."""
     import viser
+    from scipy.spatial import ConvexHull
 
     from holdfast import arms
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.viewer import part_corners
 
     arm = arms.load("panda")
     pages = {"holdfast": folder / "holdfast.html", "viser, as_html": folder / "viser.html"}
-    arm.page(pages["holdfast"])
+    html = arm.page(pages["holdfast"]).to_html()
+    scene, parts = (json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', html)[:2])
+    frames = arm.frames(np.array(scene["arms"][0]["q"][0]))
+    ring = np.array([[np.cos(t), np.sin(t), 0.3 * np.cos(3 * t)] for t in np.linspace(0, 2 * np.pi, 20, endpoint=False)])
     server = viser.ViserServer(port=0, verbose=False)
-    shown = scene(arm)
-    from scipy.spatial import ConvexHull
-
-    for k, part in enumerate(shown.data["parts"]):
-        corners = part_corners(part)
-        pose = shown.frames[0, 0, part["frame"]]
+    for k, part in enumerate(parts):
+        start, end, radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
+        corners = np.vstack([start + radius * ring, end + radius * ring])
+        pose = frames[part["frame"]]
         server.scene.add_mesh_simple(f"/part{k}", corners @ pose[:3, :3].T + pose[:3, 3], ConvexHull(corners).simplices)
     pages["viser, as_html"].write_text(server.scene.as_html(), encoding="utf-8")
     server.stop()

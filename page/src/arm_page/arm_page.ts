@@ -27,6 +27,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   fractions: Float64Array = new Float64Array();
   worst = 0;
   touched = false;
+  dragging = false;
   readonly view: View;
   protected readonly overlay: Overlay;
   protected readonly bars: Bars;
@@ -57,7 +58,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
       this.selectCondition(joint, condition),
     );
     this.handle = this.addHandle("tool-handle", "handle", {
-      begin: () => (this.touched = true),
+      begin: () => (this.touched = this.dragging = true),
       move: (pose) => this.moveTool(pose),
       end: () => this.endDrag(),
     });
@@ -167,6 +168,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Search from random starts for a target that was not reached from the present configuration. */
   private endDrag(): void {
+    this.dragging = false;
     if (this.target !== null) {
       const found = searchTarget(this.arm, this.state.q, this.target, this.arm.freeJoints(this.failed));
       if (found.reached) this.setConfiguration([...found.configuration]);

@@ -124,8 +124,11 @@ function projectOntoNullSpace(arm: ArmModel, q: Values, direction: Values): Floa
 }
 
 /** Return a unit vector (n) of the basis of the null space. */
-const nullDirection = (arm: ArmModel, q: Values, column: number): Float64Array =>
-  Float64Array.from(arm.nullSpace(q), (row) => row[column]);
+function nullDirection(arm: ArmModel, q: Values, column: number): Float64Array {
+  const direction = new Float64Array(arm.jointCount);
+  arm.nullSpace(q).forEach((row, joint) => (direction[joint] = row[column]));
+  return direction;
+}
 
 /** Return how far q can move along a direction until a joint is at its limit. */
 function distanceToLimits(arm: ArmModel, q: Float64Array, direction: Float64Array): number {

@@ -16,6 +16,7 @@ import { traceSelfMotion, type SelfMotion } from "./self_motion";
 const MAX_BRAKE_DELAY_MS = 500;
 const BRAKE_DELAY_STEP_MS = 10;
 const SLIDE_SPEED_SAMPLES_PER_PICTURE = 2; // on the way to the best configuration
+const PAUSE_RATIO = 25;
 const STRUCTURAL_ZERO = 1e-6; // relative manipulability below which a joint has no substitute
 const PLAY_SPEED = 2; // simulated seconds per second
 const TRAIL_STYLES = ["solid", "dotted", "dashed"] as const;
@@ -33,6 +34,18 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   abstract update(): void;
   /** Return the headline and its detail. */
   abstract sentences(): [string, string];
+
+  /** End of the last long computation, and its duration, ms. */
+  private computed = { end: -Infinity, duration: 0 };
+
+  /** Compute at once, or, during a drag, only after a pause of 25 times the last duration, so that pictures stay in time. */
+  protected computeWhenDue(compute: () => void): void {
+    const start = performance.now();
+    if (this.page.dragging && start - this.computed.end < PAUSE_RATIO * this.computed.duration) return;
+    compute();
+    const end = performance.now();
+    this.computed = { end, duration: end - start };
+  }
 
   /** Compute what takes longer than a picture, after a drag. */
   rest(): void {}
@@ -157,17 +170,21 @@ export class PrepareStep extends Step {
 
   update(): void {
     const { arm, state } = this.page;
-    if (this.motion?.configurations[this.index] !== state.q) {
+    if (this.motion?.configurations[this.index] === state.q) return this.showMotion(this.motion);
+    this.computeWhenDue(() => {
       this.motion = traceSelfMotion(arm, state.q, this.direction);
       this.index = this.motion.start;
       this.input.max = String(this.motion.configurations.length - 1);
-    }
-    const { worst, best } = this.motion;
+      this.showMotion(this.motion);
+    });
+  }
+
+  private showMotion({ worst, best }: SelfMotion): void {
     this.input.value = String(this.index);
     this.input.disabled = worst.length < 2;
     this.input.setAttribute("aria-valuetext", this.sentences()[0]);
     const bound = this.page.data.bound;
-    const yMax = Math.max(...worst, bound) * 1.08;
+    const yMax = Math.max(...worst, bound);
     this.curve.replaceChildren(
       drawCurve({
         x: worst.map((_, k) => k),
@@ -178,7 +195,7 @@ export class PrepareStep extends Step {
         xEnds: ["", ""],
         yLabel: this.text("curve_worst"),
         marker: this.index,
-        limit: bound ? { y: bound, label: this.text("curve_bound", { bound: formatPercent(bound) }) } : undefined,
+        limit: bound ? { y: bound, label: this.text("curve_bound") } : undefined,
         alternative: this.text("curve_worst_alternative", {
           first: formatPercent(worst[0]),
           last: formatPercent(worst[worst.length - 1]),
@@ -335,9 +352,11 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
     (this.joints.control as HTMLSelectElement).selectedIndex = free.length === 1 ? free[0] + 1 : 0;
     const falling = state.conditions.map((condition): number =>
       Number(free.length ? condition === "free" : condition === "healthy"));
-    this.fall = simulateFall(arm, state.q, falling, MAX_BRAKE_DELAY_MS / 1000, data.gravity);
-    this.swing = free.length === 1 ? swingJoint(arm, state.q, free[0]) : null;
-    this.showDelay();
+    this.computeWhenDue(() => {
+      this.fall = simulateFall(arm, state.q, falling, MAX_BRAKE_DELAY_MS / 1000, data.gravity);
+      this.swing = free.length === 1 ? swingJoint(arm, state.q, free[0]) : null;
+      this.showDelay();
+    });
   }
 
   sentences(): [string, string] {

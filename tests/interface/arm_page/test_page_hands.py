@@ -132,7 +132,9 @@ def test_an_arm_with_more_redundancy_has_directions_of_self_motion(opened):
         menu.select_option(str(direction))
         start = int(slider.input_value())
         step = 1 if start < int(slider.get_attribute("max")) else -1
-        slider.evaluate("(input, value) => { input.value = value; input.dispatchEvent(new Event('input')); }", str(start + step))
+        slider.evaluate(
+            "(input, value) => { input.value = value; input.dispatchEvent(new Event('input')); }", str(start + step)
+        )
         q = configuration(page)
         np.testing.assert_allclose(arm.forward_kinematics(q), arm.forward_kinematics(first), atol=1e-5)
         ways.append((q - first) / np.linalg.norm(q - first))

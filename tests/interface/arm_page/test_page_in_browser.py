@@ -153,7 +153,7 @@ def test_each_step_shows_what_python_computes(opened, panda_html):
     np.testing.assert_allclose(page.evaluate(f"Array.from({LAST}.fractions)"), fractions, atol=1e-12)
     enter(page, "lock")
     worst = int(fractions.argmin())
-    assert headline(page) == f"Joint {worst + 1} is locked: {100 * fractions[worst]:.1f} % of the motion remains."
+    assert headline(page) == f"Joint {worst + 1} is locked: the tool keeps {100 * fractions[worst]:.1f} % of its speed."
     enter(page, "prepare")
     page.get_by_role("button", name="Go to the best").click()
     best = index.evaluate(configuration(page)).by_failure.min()
