@@ -1,6 +1,6 @@
-"""A joint locks, the lost direction appears, and the stance of the same tool point that is optimised keeps it.
+"""A joint locks, the lost direction appears, and the optimised configuration with the same tool point keeps it.
 
-The real studio in headless Chromium, with its server; needs what ``tests/interface/studio`` needs.
+The page of an arm in headless Chromium, which the studio shows, too; needs what ``tests/interface/studio`` needs.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from PIL import Image
@@ -23,8 +24,6 @@ import chromium
 
 START = np.deg2rad([0, 20, 0, -120, 0, 150, 45]) + 0.05 * np.sin(1 + np.arange(7))
 JOINT = 1
-EYE, CENTRE = (1.14, -1.31, 0.56), (0.70, 0.12, 0.28)  # m; the controls cover the right side
-FIELD = 0.72  # rad
 
 
 def climb(arm: hf.Arm, index: hf.indices.Index, q: np.ndarray, count: int) -> np.ndarray:
@@ -43,44 +42,26 @@ def climb(arm: hf.Arm, index: hf.indices.Index, q: np.ndarray, count: int) -> np
 
 def shots(count: int = 32) -> Iterator[Shot]:
     """Locked, sliding, locked again, and back."""
-    from holdfast.interface.studio import State, serve
-
     arm = hf.arms.load("panda")
     index = hf.indices.relative_manipulability(arm, "position")
     way = climb(arm, index, START, count)
-    state = State("panda", arm.joint_names, tuple(START), task="position")
-    with chromium.opened(scenes=True) as browser, serve(arm, state, port=0) as served:
+    with chromium.opened(scenes=True) as browser, TemporaryDirectory() as folder:
+        file = Path(folder) / "panda.html"
+        arm.page(file, q=START, task="position")
         page = browser.new_context(viewport={"width": SIZE[0], "height": SIZE[1]}).new_page()
-        page.goto(served.url)
-        while not served.windows:
-            page.wait_for_timeout(50)
-        window = next(iter(served.windows.values()))
-        window.wait_until_done(120)
-        close = page.get_by_role("alert").get_by_role("button")  # the browser says that it draws without a graphics card
-        if close.count():
-            close.first.click()
-        page.get_by_role("tab", name="Fail").click()
-        page.get_by_text("What the colours mean").click()  # the caption is there
-        window.stage.gizmo.visible = False
-        window.client.camera.position, window.client.camera.look_at = EYE, CENTRE
-        window.client.camera.fov = FIELD
 
         def shot(q: np.ndarray, text: str, ms: int, locked: bool = False) -> Shot:
-            window.live.submit("at", lambda: window._set_configuration(q))
-            window.request_action("fail", (JOINT, "locked" if locked else "healthy"))
-            window.request_action("losses", locked)
-            window.wait_until_done(30)
-            window.stage.before.visible = True
+            state = f"step=lock&locked={JOINT + 1}" if locked else "step=healthy"
+            page.goto("about:blank")
+            page.goto(f"{file.as_uri()}#{state}&q={','.join(f'{value:.6f}' for value in q)}")
             page.evaluate("() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))")
-            page.wait_for_timeout(120)
             shown = Image.open(BytesIO(page.screenshot())).convert("RGB")
             return caption(shown, text, color=ORANGE if locked else INK), ms
 
-        shot(START, "", 0, locked=True)
-        left = [f"{100 * index.by_joint(q)[JOINT]:.0f} % of the speed is left" for q in (way[0], way[-1])]
-        yield shot(way[0], f"Joint 2 locks: {left[0]}\nalong the orange line, which it loses most", 2600, locked=True)
+        left = [f"{100 * index.by_joint(q)[JOINT]:.0f} % of the speed remains" for q in (way[0], way[-1])]
+        yield shot(way[0], f"Joint 2 locks: {left[0]}\nalong the orange arrow, which it loses most", 2600, locked=True)
         for q in way:
-            yield shot(q, "While healthy: choose a better stance\nthe tool point stays where it is", TICK)
-        yield shot(way[-1], f"Joint 2 locks: {left[1]}\nthe same failure, in the optimised stance", 2600, locked=True)
+            yield shot(q, "While healthy: choose a better configuration\nthe tool point stays in place", TICK)
+        yield shot(way[-1], f"Joint 2 locks: {left[1]}\nthe same failure, in the optimised configuration", 2600, locked=True)
         for q in way[::-2]:
-            yield shot(q, "While healthy\nback to the first stance", TICK // 2)
+            yield shot(q, "While healthy\nback to the first configuration", TICK // 2)
