@@ -98,7 +98,8 @@ export interface Answers {
     target: number[];
     command: string;
   };
-  "best-worst": { q: [number[], number[]]; values: [number, number, number] };
+  /** Values of the best, the worst, and the present configuration; null where one is infinite. */
+  "best-worst": { q: [number[], number[]]; values: (number | null)[] };
   laws: Motion[];
   fall: Motion[];
   region: Cloud;

@@ -3,6 +3,7 @@
 import { h } from "../dom";
 import { place, sum } from "../viewer/algebra";
 import type { Part, Pose, Vector } from "../viewer/scene";
+import { findBody } from "../viewer/hulls";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
 import { View } from "../viewer/view";
@@ -74,7 +75,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     this.find(".arm-commands")?.before(this.sliders.element);
     (this.find(".view3d-hint") as HTMLElement).textContent = data.texts.hint;
     view.onDraw = () => this.afterPicture();
-    view.onPick = (part) => this.selectPart(part);
+    view.onClick = (point) => this.selectPartAt(point);
     this.measure();
     this.openStep(this.state.step);
   }
@@ -125,6 +126,12 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     this.target = null;
     this.touched = true;
     this.update();
+  }
+
+  private selectPartAt(point: number[]): void {
+    const parts = this.data.scene.parts.filter((part) => part.joint !== undefined || part.object);
+    const found = findBody(this.view.placeParts(parts, this.view.frames()), (corner) => this.view.project(corner), point);
+    if (found) this.selectPart(found.part);
   }
 
   /** Change the condition of the joint of a part of the picture. */
@@ -250,7 +257,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   protected overlayContent(): OverlayContent {
     const content = this.step.overlay();
-    return this.target === null ? content : { ...content, pointerLine: [this.arm.toolPosition(this.state.q), place(this.target)] };
+    if (this.target !== null) content.pointerLine = [this.arm.toolPosition(this.state.q), place(this.target)];
+    return content;
   }
 
   /** Add a handle that moves a pose; `text` is the key of what a screen reader says. */
@@ -269,7 +277,10 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   protected addPictureButtons(): void {
     const rotate = createToggle(this.data.texts.rotate, (on) => this.handles.forEach((handle) => handle.setRotating(on)));
-    const row = h("div", { class: "view3d-row" }, ...createViewButtons(this.view), this.rotationAxes.length ? rotate : null);
+    const goHome = (): void => this.setConfiguration(this.data.scene.arms[0].q[0]);
+    const home = h("button", { type: "button", onclick: goHome }, this.data.texts.home);
+    const toggle = this.rotationAxes.length ? rotate : null;
+    const row = h("div", { class: "view3d-row" }, ...createViewButtons(this.view), toggle, home);
     this.find(".view3d-controls")?.append(row);
   }
 

@@ -1,4 +1,4 @@
-/** One bar for each joint: the fraction of the motion that remains, or an index, if that joint locks. A click changes its condition. */
+/** One bar for each joint: what remains if that joint locks. A click changes its condition. */
 
 import type { Condition } from "./address";
 import { fillText } from "./phrases";

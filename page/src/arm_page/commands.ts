@@ -100,7 +100,8 @@ export function writeCommands(details: HTMLElement, texts: Record<string, string
     h("pre", { tabindex: 0, class: `command-${kind}` }, text),
     copy(() => text, texts[`copy_${kind}`]),
   ]);
-  details.replaceChildren(h("summary", {}, texts.commands), ...blocks, " ", copy(() => location.href, texts.copy_address), status);
+  const address = copy(() => location.href, texts.copy_address);
+  details.replaceChildren(h("summary", {}, texts.commands), ...blocks, " ", address, status);
 }
 
 /** Copy a text, also in a page that has no clipboard, for example in a sandboxed frame. */

@@ -42,7 +42,8 @@ export class PoseHandle {
   private rotating = false;
 
   constructor(private readonly view: View, private readonly options: HandleOptions, private readonly actions: HandleActions) {
-    this.button = h("button", { type: "button", class: `pose-handle ${options.className}`, "aria-label": options.labels[0], hidden: true });
+    const className = `pose-handle ${options.className}`;
+    this.button = h("button", { type: "button", class: className, "aria-label": options.labels[0], hidden: true });
     this.rings = createSvg("svg", { class: "view3d-overlay pose-rings", "aria-hidden": "true", hidden: "" });
     for (const axis of options.axes) {
       const ring = createSvg("path", { class: `ring-${"xyz"[axis]}` });

@@ -119,7 +119,7 @@ function selfMotionDirection(
 
 function projectOntoNullSpace(arm: ArmModel, q: Values, direction: Values): Float64Array {
   const rows = arm.nullSpace(q);
-  const parts = Float64Array.from({ length: arm.redundancy }, (_, k) => rows.reduce((sum, row, j) => sum + row[k] * direction[j], 0));
+  const parts = Float64Array.from(rows[0], (_, k) => rows.reduce((sum, row, j) => sum + row[k] * direction[j], 0));
   return Float64Array.from(rows, (row) => dotProduct(row, parts));
 }
 

@@ -1,6 +1,7 @@
 /** The five steps of the story. Each one sets the joints, shows its controls, and adds to the picture. */
 
 import { createSvg, h } from "../dom";
+import { Player } from "../player";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Vector } from "../viewer/scene";
 import type { GhostColor } from "../viewer/view";
@@ -10,7 +11,6 @@ import { drawCurve } from "./curves";
 import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
 import { capitalise, fillText, formatAngle, formatLength, formatPercent } from "./phrases";
 import { simulateFall, swingJoint, type Fall, type Swing } from "./power_loss";
-import { Player } from "./player";
 import { traceSelfMotion, type SelfMotion } from "./self_motion";
 
 const MAX_BRAKE_DELAY_MS = 500;
@@ -165,7 +165,8 @@ export class PrepareStep extends Step {
       this.motion = null;
       this.page.changeConditions(() => undefined);
     });
-    this.page.controls.replaceChildren(this.curve, this.input, h("div", { class: "step-row" }, best, redundancy > 1 ? menu : null));
+    const row = h("div", { class: "step-row" }, best, redundancy > 1 ? menu : null);
+    this.page.controls.replaceChildren(this.curve, this.input, row);
   }
 
   update(): void {
@@ -238,7 +239,7 @@ export class PrepareStep extends Step {
 
 export class UndetectedStep extends Step {
   private motions: ControlledMotion[] = [];
-  private readonly player = new Player({ texts: this.page.data.texts, speed: PLAY_SPEED, show: () => this.showTime() });
+  private readonly player = new Player({ texts: this.page.data.texts, show: () => this.showTime() });
   private deviations: HTMLElement[] = [];
   private line: [Vector, Vector] | null = null;
 
@@ -257,7 +258,7 @@ export class UndetectedStep extends Step {
     const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
     this.page.controls.replaceChildren(
       ...names.map((name, k) => h("div", { class: "step-row" }, key(k, name))),
-      this.player.element,
+      h("label", {}, this.player.button, this.player.input, this.player.readout),
     );
     this.rest();
   }
@@ -281,7 +282,9 @@ export class UndetectedStep extends Step {
     this.motions.forEach(({ deviation }, k) => {
       this.deviations[k].textContent = this.text("deviation", { deviation: formatLength(deviation) });
     });
-    this.player.open(Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1])));
+    const duration = Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1]));
+    this.player.setRange(duration, PLAY_SPEED);
+    this.player.showTime(duration);
     if (!this.page.reducedMotion) this.player.play();
   }
 

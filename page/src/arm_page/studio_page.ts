@@ -127,7 +127,11 @@ export class StudioPage extends ArmPage<StudioPageData> {
   // ---- questions ---------------------------------------------------------------------------------------------------
 
   /** Ask a question that may take seconds; null if it failed or was cancelled, which the page reports. */
-  async run<Q extends Question>(question: Q, changes: Partial<StudioState> = {}, options: AskOptions = {}): Promise<Answers[Q] | null> {
+  async run<Q extends Question>(
+    question: Q,
+    changes: Partial<StudioState> = {},
+    options: AskOptions = {},
+  ): Promise<Answers[Q] | null> {
     this.cancel();
     const job = (this.job = new AbortController());
     this.report("");
@@ -263,7 +267,9 @@ export class StudioPage extends ArmPage<StudioPageData> {
     const { nearest } = this.reading ?? {};
     const { target } = this.studio;
     if (nearest && !nearest.blocked) content.nearestLine = [nearest.arm, nearest.object];
-    if (this.parts.hasTarget && target) content.pointerLine ??= [this.arm.toolPosition(this.state.q), place(poseFromNumbers(target))];
+    if (this.parts.hasTarget && target) {
+      content.pointerLine ??= [this.arm.toolPosition(this.state.q), place(poseFromNumbers(target))];
+    }
     return content;
   }
 
@@ -282,15 +288,16 @@ export class StudioPage extends ArmPage<StudioPageData> {
     const row = this.find(".view3d-controls");
     if (!objects.length || !row) return;
     this.objectMenu.append(...objects.map(({ name }) => h("option", {}, name)));
-    this.objectMenu.addEventListener("change", () => this.view.draw());
-    row.append(h("label", { class: "studio-menu" }, h("span", {}, this.data.texts.studio_object), this.objectMenu), this.clearance);
+    this.objectMenu.addEventListener("change", () => this.afterPicture());
+    const name = h("span", {}, this.data.texts.studio_object);
+    row.append(h("label", { class: "studio-menu" }, name, this.objectMenu), this.clearance);
   }
 
   protected override selectPart(part: Part): void {
     if (!part.object) return super.selectPart(part);
     const chosen = this.view.objects.indexOf(part) + 1;
     this.objectMenu.selectedIndex = this.objectMenu.selectedIndex === chosen ? 0 : chosen;
-    this.view.draw();
+    this.afterPicture();
   }
 
   private moveObject(pose: Pose): void {
@@ -321,5 +328,6 @@ function scaleBars({ values, better, unit }: JointBars): { fractions: number[]; 
 /** Return ", unit" if all bars have the same unit, and an empty text otherwise. */
 const commonUnit = ({ unit }: JointBars): string => (new Set(unit).size === 1 && unit[0] !== "1" ? `, ${unit[0]}` : "");
 
-/** A number with three digits. */
-export const formatNumber = (value: number): string => (Math.abs(value) < 1e-12 ? "0" : String(Number(value.toPrecision(3))));
+/** A number with three digits; null is infinite. */
+export const formatNumber = (value: number | null): string =>
+  value === null ? "infinite" : Math.abs(value) < 1e-12 ? "0" : String(Number(value.toPrecision(3)));

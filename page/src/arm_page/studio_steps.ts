@@ -1,18 +1,19 @@
 /** Steps of the studio after the five steps of the page; the server computes what they show. */
 
 import { h } from "../dom";
+import { Player } from "../player";
 import { between } from "../viewer/algebra";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Vector } from "../viewer/scene";
 import type { Answers, Cloud, Motion, Watch } from "./answers";
 import { saveFile, savePicture } from "./picture_file";
-import { Player } from "./player";
 import { drawSignals } from "./signals";
 import { PowerStep, Step, STEP_CLASSES, type StepClasses } from "./steps";
 import { formatNumber, MAX_FILE_BYTES, type StudioPage, type StudioStepParts } from "./studio_page";
 
 type MotionColor = "green" | "orange" | "purple";
 const LATEST_ONSET_S = 4;
+const LONGEST_PLAY_S = 15;
 
 /** Motions over time, as transparent arms with trails of the tool. */
 class Playback {
@@ -28,8 +29,9 @@ class Playback {
     private readonly colors: MotionColor[],
     private readonly show: (configurations: number[][]) => void,
   ) {
-    this.player = new Player({ texts: page.data.texts, speed: 1, show: () => this.showTime() });
-    this.element = h("div", { hidden: true }, this.list, this.player.element);
+    this.player = new Player({ texts: page.data.texts, show: () => this.showTime() });
+    const { button, input, readout } = this.player;
+    this.element = h("div", { hidden: true }, this.list, h("label", {}, button, input, readout));
   }
 
   /** Show motions from their beginning, or with reduced motion at their end. */
@@ -39,7 +41,8 @@ class Playback {
     this.list.replaceChildren(...motions.map(({ label }, k) => h("li", { class: `motion-${this.colors[k]}` }, label)));
     this.element.hidden = false;
     const end = Math.max(...motions.map((motion) => motion.time[motion.time.length - 1]));
-    this.player.open(end, time || end, motions[0].unit);
+    this.player.setRange(end, Math.max(1, end / LONGEST_PLAY_S), motions[0].unit);
+    this.player.showTime(time || end);
     if (!time && !this.page.reducedMotion) this.player.play();
   }
 
@@ -233,7 +236,8 @@ class RegionStep extends StudioStep {
     const { region } = this.page.data.studio.state;
     const assess = this.button("studio_assess", () => void this.assess(null));
     const open = region === null ? null : this.button("studio_open_region", () => void this.assess(region));
-    this.page.controls.replaceChildren(this.row(assess, open), this.caption, h("label", {}, h("span", {}, this.text("studio_point")), this.pointSlider));
+    const point = h("label", {}, h("span", {}, this.text("studio_point")), this.pointSlider);
+    this.page.controls.replaceChildren(this.row(assess, open), this.caption, point);
     this.showCloud();
   }
 
@@ -283,7 +287,7 @@ class RegionStep extends StudioStep {
     if (chosen < 0) return [this.text("studio_select_point"), this.text("studio_region_detail")];
     const value = cloud.values[chosen];
     const headline = cloud.q[chosen] === null ? this.text("studio_unreached_point")
-      : this.text("studio_point_value", { value: value === null ? "infinite" : formatNumber(value) });
+      : this.text("studio_point_value", { value: formatNumber(value) });
     return [headline, this.text("studio_point_detail", { number: chosen + 1, count: cloud.points.length })];
   }
 }
@@ -369,7 +373,7 @@ class FileStep extends MotionStep {
 
   enter(): void {
     const { state, objects } = this.page.data.studio;
-    const picker = h("input", { type: "file", accept: ".urdf,.xml,.yaml,.yml,.csv", "aria-label": this.text("studio_open_file") });
+    const picker = h("input", { type: "file", accept: ".urdf,.xml,.yaml,.yml,.csv" });
     picker.addEventListener("change", () => {
       if (picker.files?.[0]) void this.openFile(picker.files[0]);
       picker.value = "";

@@ -1,64 +1,31 @@
 /** Buttons and sliders under a picture. */
 
 import { h } from "../dom";
+import { Player } from "../player";
 import type { Scene } from "./scene";
 import type { View } from "./view";
-
-const FASTEST = 1 / 30; // s between two pictures, with a little room
 
 /** Add the controls to the page; the returned function shows a frame of the motion. */
 export function controls(view: View): (k: number) => void {
   const { box, scene } = view;
   const row = h("div", { class: "view3d-row" });
   const last = view.length - 1;
-  let shown = (_: number): void => undefined;
+  const player = new Player({
+    texts: { play: "Play", pause: "Pause", time: "Time of the motion" },
+    show: () => view.frame(player.time),
+    format: (k) => scene.readings[Math.round(k)] ?? `${scene.time[Math.round(k)].toPrecision(3)} s`,
+  });
+  player.input.step = "1";
   if (scene.time.length) {
-    const play = h("button", { type: "button" }, "Play");
-    const slider = h("input", { type: "range", min: 0, max: last, step: 1, value: 0, "aria-label": "Time of the motion" });
-    const said = h("output", { class: "view3d-said" });
-    let timer = 0;
-    let begun = 0;
-    let from = 0;
-    const stop = (): void => {
-      cancelAnimationFrame(timer);
-      timer = 0;
-      play.textContent = "Play";
-    };
-    let before = 0;
-    const tick = (now: number): void => {
-      begun ||= now;
-      timer = requestAnimationFrame(tick);
-      const k = Math.min(last, from + ((now - begun) / 1000 / scene.seconds) * last);
-      if (now - before < 900 * FASTEST && k < last) return;
-      before = now;
-      view.frame(k);
-      if (k >= last) stop();
-    };
-    play.addEventListener("click", () => {
-      if (timer) return stop();
-      from = Number(slider.value) >= last ? 0 : Number(slider.value);
-      begun = 0;
-      play.textContent = "Pause";
-      timer = requestAnimationFrame(tick);
-    });
-    slider.addEventListener("input", () => {
-      stop();
-      view.frame(Number(slider.value));
-    });
-    shown = (k) => {
-      const text = scene.readings[Math.round(k)] ?? `${scene.time[Math.round(k)].toPrecision(3)} s`;
-      slider.value = String(k);
-      slider.setAttribute("aria-valuetext", text);
-      if (said.textContent !== text) said.textContent = text;
-    };
-    shown(0);
-    row.append(play, slider, said);
+    player.setRange(last, last / scene.seconds);
+    player.setTime(0);
+    row.append(player.button, player.input, player.readout);
   }
   row.append(...createViewButtons(view));
   const fixed = scene.joints.map((joint, k) => (scene.locked[k] === null ? "" : `${joint.name} (locked)`));
-  const sliders = scene.sliders ? [new JointSliders(scene, [...view.configurations()[0]], (q) => view.pose(q), fixed).element] : [];
-  box.querySelector(".view3d-controls")?.append(row, ...sliders);
-  return (k) => shown(k);
+  const sliders = new JointSliders(scene, [...view.configurations()[0]], (q) => view.pose(q), fixed);
+  box.querySelector(".view3d-controls")?.append(row, ...(scene.sliders ? [sliders.element] : []));
+  return scene.time.length ? (k) => player.setTime(k) : () => undefined;
 }
 
 /** Buttons that reset the camera and that show or hide the names of the joints. */

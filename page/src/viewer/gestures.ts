@@ -68,7 +68,7 @@ export function listenToPointers(view: View): void {
   });
 }
 
-/** Report the point, the joint, or the object on which the visitor has clicked. */
+/** Choose the point on which the visitor has clicked, or report the click. */
 function pick(view: View, event: PointerEvent): void {
   const { canvas, scene } = view;
   const bounds = canvas.getBoundingClientRect();
@@ -79,5 +79,5 @@ function pick(view: View, event: PointerEvent): void {
     if (off < 9 && p[2] < nearest) [best, nearest] = [k, p[2]];
   });
   if (best >= 0) view.choose(best);
-  else view.pick([event.clientX - bounds.left, event.clientY - bounds.top]);
+  else view.onClick?.([event.clientX - bounds.left, event.clientY - bounds.top]);
 }

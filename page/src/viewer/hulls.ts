@@ -68,9 +68,11 @@ export function hull(points: Point[]): Point[] {
   return [...half(sorted), ...half(sorted.reverse())];
 }
 
+type PlacedPart = Pick<Body, "part" | "pose">;
+
 /** The body under a point of the picture, pixels, whose surface is nearest to the eye; null for none. */
-export function findBody<B extends Pick<Body, "part" | "pose">>(bodies: B[], locate: (point: Vector) => Vector, point: Point): B | null {
-  let [found, nearest]: [B | null, number] = [null, Infinity];
+export function findBody(bodies: PlacedPart[], locate: (point: Vector) => Vector, point: Point): PlacedPart | null {
+  let [found, nearest]: [PlacedPart | null, number] = [null, Infinity];
   for (const body of bodies) {
     const points = corners(body.part).map((corner) => locate(transform(body.pose, corner)));
     const depth = Math.min(...points.map((corner) => corner[2]));

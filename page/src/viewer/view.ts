@@ -4,7 +4,6 @@ import { between, column, frames, place, sum, times } from "./algebra";
 import { Camera, project } from "./camera";
 import { controls } from "./controls";
 import { listenToPointers } from "./gestures";
-import { findBody } from "./hulls";
 import { writeLabels, type Label } from "./labels";
 import { choosePalette, css, type Palette } from "./palette";
 import { chooseRenderer, type Body, type Picture, type Renderer } from "./renderer";
@@ -25,8 +24,8 @@ export class View {
   readonly camera: Camera;
   /** Called after each picture, for example to place what lies over the canvas. */
   onDraw: (() => void) | null = null;
-  /** Called after a click on the body of a joint or on an object around the arm. */
-  onPick: ((part: Part) => void) | null = null;
+  /** Called after a click on the picture with its place, CSS pixels, unless it is on a point of the scene. */
+  onClick: ((place: number[]) => void) | null = null;
   /** Motion of each object of the cell from its place in the scene, in the world. */
   objectMotions: Pose[] = [];
   /** Index of the object that the arm touches; -1 for none. */
@@ -152,18 +151,6 @@ export class View {
     this.draw();
   }
 
-  /** Report the joint or the object at a point of the picture, CSS pixels. */
-  pick(point: number[]): void {
-    const bodies = this.placeParts(this.scene.parts.filter((part) => part.joint !== undefined || part.object), this.frames());
-    const found = this.onPick && findBody(bodies, (corner) => this.project(corner), point);
-    if (found) this.onPick?.(found.part);
-  }
-
-  /** Mark no point of the scene. */
-  unchoose(): void {
-    this.chosen = -1;
-  }
-
   /** Draw as soon as the browser does. */
   draw(): void {
     this.waiting ||= requestAnimationFrame(() => {
@@ -240,7 +227,7 @@ export class View {
   }
 
   /** The pose of each part in the world; objects of the cell may have moved. */
-  private placeParts(parts: Part[], poses: Pose[]): Pick<Body, "part" | "pose">[] {
+  placeParts(parts: Part[], poses: Pose[]): Pick<Body, "part" | "pose">[] {
     return parts.map((part) => {
       const moved = part.object && this.objectMotions[this.objects.indexOf(part)];
       return { part, pose: moved ? times(moved, poses[part.frame]) : poses[part.frame] };

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
-from holdfast.interface.studio.cloud import find_region_cloud
+from holdfast.interface.studio.compute import find_region_cloud
 from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import Cancelled, WorkerProcess

@@ -84,7 +84,7 @@ def test_a_motion_that_is_sent_is_played(page, tmp_path):
 @pytest.mark.parametrize(
     ("file", "sentence"),
     [
-        ({"name": "a.urdf", "content": "%%%"}, "not base64"),
+        ({"name": "a.urdf", "content": "A"}, "file.content cannot be read"),
         ({"name": "a.xacro", "content": ""}, "expanded first"),
         (sent("a.urdf", b"<robot/>"), "nothing has changed"),
         (sent("a.urdf", b" " * (upload.MAX_FILE_BYTES + 1)), "too large; at most 4 MiB"),

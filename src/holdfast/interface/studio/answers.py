@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import binascii
 import dataclasses
 import re
-from base64 import b64decode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,19 +11,18 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from pydantic import Base64Bytes, TypeAdapter, ValidationError
 
 from holdfast.core.errors import HoldfastError, InputError
-from holdfast.core.extras import guard_imports
 from holdfast.core.registry import INDEX_REGISTRY, LAW_REGISTRY, SUSCEPTIBILITY_REGISTRY, Registry
 from holdfast.core.typing import T
 from holdfast.interface.studio import upload
-from holdfast.interface.studio.machine import REACH_TOLERANCE, CompiledArm, describe_error
+from holdfast.interface.studio.machine import CompiledArm, describe_error
 from holdfast.interface.studio.monitor_demo import FAULT_PARAMETERS, LATEST_ONSET_S
 from holdfast.interface.studio.motions import read_motion
 from holdfast.interface.studio.state import State
-from holdfast.interface.studio.worker_process import Progress, WorkerProcess
-from holdfast.model.arm.poses import pose_from_quaternion, pose_numbers
+from holdfast.interface.studio.worker_process import WorkerProcess
+from holdfast.model.arm.poses import pose_numbers
 
 LONG_QUESTIONS = ("best-worst", "laws", "fall", "region", "watch")  # jobs of the worker process, see compute.py
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
@@ -33,10 +30,10 @@ MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 @dataclass(frozen=True)
 class SentFile:
-    """File that a visitor opens: its name, and its content in base64."""
+    """File that a visitor opens; the content is sent in base64."""
 
     name: str
-    content: str
+    content: Base64Bytes
 
 
 @dataclass(frozen=True)
@@ -147,10 +144,9 @@ def answer_reading(served: ServedArm, request: Request) -> dict[str, Any]:
 
 def answer_drawing(served: ServedArm, request: Request) -> dict[str, Any]:
     """Draw the view and its ghosts."""
-    with guard_imports("a drawing"):
-        from holdfast.interface.studio.picture import draw_view_svg
+    from holdfast.interface.studio.picture import draw_view_svg
 
-    return {"svg": draw_view_svg(served.machine, request.state, [np.array(ghost) for ghost in request.ghosts])}
+    return {"svg": draw_view_svg(served.machine, request.state, request.ghosts)}
 
 
 def answer_cell_file(served: ServedArm, request: Request) -> dict[str, Any]:
@@ -175,7 +171,7 @@ def open_motion(served: ServedArm, request: Request) -> dict[str, Any]:
     """
     arm = served.machine.arm
     if request.file is not None:
-        motion = upload.read_uploaded_motion(arm, request.file.name, decode_file(request.file))
+        motion = upload.read_uploaded_motion(arm, request.file.name, request.file.content)
     elif served.state.file is not None:
         motion = read_motion(arm, served.state.file)
     else:
@@ -183,32 +179,6 @@ def open_motion(served: ServedArm, request: Request) -> dict[str, Any]:
     return {"motion": motion.to_plain() | {"label": f"{motion.label}: {len(motion.time)} rows"}}
 
 
-def decode_file(file: SentFile) -> bytes:
-    """Return the content of a file that a visitor sent.
-
-    Raises:
-        InputError: The content is not base64.
-    """
-    try:
-        return b64decode(file.content, validate=True)
-    except (binascii.Error, ValueError) as error:
-        raise InputError(f"'{upload.sanitise_file_name(file.name)}' cannot be read: its content is not base64") from error
-
-
 QUICK_ANSWERS: Mapping[str, Callable[[ServedArm, Request], Any]] = MappingProxyType(
     {"reading": answer_reading, "drawing": answer_drawing, "cell-file": answer_cell_file, "open": open_motion}
 )
-
-
-def answer_in_worker(served: ServedArm, job: str, request: Request, check: Callable[[], None], progress: Progress) -> Any:
-    """Answer a question in the worker process; see :meth:`holdfast.interface.studio.worker_process.WorkerProcess.run`.
-
-    Raises:
-        InputError: The end effector is already at the target.
-    """
-    state, machine = request.state, served.machine
-    if job == "laws" and state.target is not None:
-        target = pose_from_quaternion(state.target[:3], state.target[3:])
-        if machine.pose_error_norm(np.array(state.q), target) < REACH_TOLERANCE:
-            raise InputError("the end effector is already at the target; drag the target away")
-    return served.worker_process.run(job, state, check, progress)

@@ -26,8 +26,6 @@ from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.clearance import Clearance
 
-REACH_TOLERANCE = 1e-6  # distance of an end effector from a target that it has reached, m and rad
-
 
 class CompiledArm:
     """Arm with its compiled functions, shared by all pages; safe for several threads."""
@@ -78,27 +76,15 @@ class CompiledArm:
     # ---- measures and laws ------------------------------------------------------------------------------------------
 
     def get_index(self, name: str) -> Index:
-        """Return the index over single failures.
-
-        Raises:
-            HoldfastError: The arm has no such index.
-        """
+        """Return the index over single failures; a HoldfastError states why the arm has none."""
         return self._compile_once(("index", name), lambda: by_name(name, self.arm, self.task))
 
     def get_susceptibility(self, name: str) -> susceptibility.Susceptibility:
-        """Return the susceptibility.
-
-        Raises:
-            HoldfastError: The arm has no such susceptibility.
-        """
+        """Return the susceptibility; a HoldfastError states why the arm has none."""
         return self._compile_once(("susceptibility", name), lambda: susceptibility.by_name(name, self.arm))
 
     def get_law(self, text: str) -> Law:
-        """Return the control law with the label ``name`` or ``name:value``.
-
-        Raises:
-            InputError: The law is unknown, its setting is invalid, or it has no setting.
-        """
+        """Return the control law with the label ``name`` or ``name:value``; an InputError states why there is none."""
         law: Law = self._compile_once(("law", text), lambda: LAW_REGISTRY.make(text, self.arm, option="law", task=self.task))
         return law
 
@@ -106,12 +92,9 @@ class CompiledArm:
         """Describe the beginning of the fall of joints at q (n,) with dry ``friction``, N m or N; empty without masses."""
         if not powerless or not self.has_masses:
             return ""
-        try:
-            tool_drop = self._compile_once(powerless, lambda: susceptibility.tool_drop(self.arm, powerless))
-            acceleration = float(tool_drop(q))
-            check = holds(self.arm, q, free=powerless, friction=Friction(coulomb=friction))
-        except HoldfastError as error:
-            return str(error)
+        tool_drop = self._compile_once(powerless, lambda: susceptibility.tool_drop(self.arm, powerless))
+        acceleration = float(tool_drop(q))
+        check = holds(self.arm, q, free=powerless, friction=Friction(coulomb=friction))
         joint = self.arm.joints[check.joint]
         early, late = (format_number(1000 * acceleration * time**2 / 2, 3) for time in (0.05, 0.1))
         return (
@@ -121,11 +104,7 @@ class CompiledArm:
         )
 
     def evaluate_index_bars(self, q: FloatArray, name: str) -> dict[str, Any]:
-        """Evaluate an index at q (n,) for the lock of each joint, as ``JointBars``.
-
-        Raises:
-            HoldfastError: The arm has no such index.
-        """
+        """Evaluate an index at q (n,) for the lock of each joint, as ``JointBars`` of ``answers.ts``."""
         index = self.get_index(name)
         evaluation = index.evaluate(q)
         return {
@@ -138,11 +117,7 @@ class CompiledArm:
         }
 
     def evaluate_susceptibility_bars(self, q: FloatArray, name: str) -> dict[str, Any]:
-        """Evaluate a susceptibility at q (n,) for the torque loss of each joint, as ``JointBars``.
-
-        Raises:
-            HoldfastError: The arm has no such susceptibility.
-        """
+        """Evaluate a susceptibility at q (n,) for the torque loss of each joint, as ``JointBars`` of ``answers.ts``."""
         measure = self.get_susceptibility(name)
         values = np.abs(measure.by_joint(q))
         worst = int(np.nan_to_num(values).argmax())
@@ -150,14 +125,6 @@ class CompiledArm:
         return {**texts, "values": to_plain(values), "worst": worst}
 
     # ---- targets and objects ----------------------------------------------------------------------------------------
-
-    def pose_error_norm(self, q: FloatArray, pose: FloatArray) -> float:
-        """Return the distance between the end effector at q (n,) and a pose (4, 4), by the rows of the task; m and rad."""
-        from scipy.spatial.transform import Rotation
-
-        tool = self.tool_pose(q)
-        angular = Rotation.from_matrix(pose[:3, :3] @ tool[:3, :3].T).as_rotvec()
-        return float(np.linalg.norm(self.task.world_rows(tool[:3, :3]) @ np.r_[pose[:3, 3] - tool[:3, 3], angular]))
 
     def nearby_configuration(self, q: FloatArray) -> FloatArray:
         """Return a configuration near q (n,) within the limits, whose pose is a reachable target."""

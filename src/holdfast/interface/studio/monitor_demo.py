@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.interface.studio.machine import CompiledArm, to_plain
-from holdfast.interface.studio.motions import MOTION_SAMPLES, PlayedMotion
+from holdfast.interface.studio.motions import PlayedMotion
 from holdfast.interface.studio.state import State
 from holdfast.model.arm.poses import pose_from_quaternion
 from holdfast.response.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S, SENSOR_REVISION_TIME_S
@@ -45,6 +45,7 @@ MOTION_TIME_LIMIT_S = 8.0
 HEALTHY_MOTIONS = 4
 THRESHOLD_FACTOR = 2.0
 MAX_LINE_POINTS = 150  # points of the line of a residual
+MOTION_SAMPLES = 240  # configurations of a shown motion under a law
 
 
 _last_thresholds: dict[object, Bounds] = {}  # of the last request, so that another fault needs one motion and not five

@@ -3,71 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from html import escape
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.arm.view import choose_views
-from holdfast.interface.report.figures import (
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    settle_layout,
-    style,
-    svg,
-)
-from holdfast.interface.report.motions import draw_chain, show_view
+from holdfast.interface.presentation.arm import view
+from holdfast.interface.report.viewer import draw_scene_svg
 from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
+from holdfast.model.arm.task import plane_normal
+
+DRAWING_SIDE_PX = 480  # of each of the drawings side by side
 
 
-def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArray] = ()) -> str:
-    """Draw a view as SVG text.
+def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[Sequence[float]] = ()) -> str:
+    """Draw a view as SVG text: from the side and from above, or onto the plane of a planar arm.
 
     Args:
         machine: Compiled arm.
         state: State with the configuration and the failed joints.
-        ghosts: Configurations (n,) of further arms in the drawing, green and orange.
+        ghosts: Configurations (n,) of further arms in the drawing.
     """
-    from matplotlib.figure import Figure
-
-    chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
-    views = choose_views(machine.arm, chains)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, WIDTH_IN / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH_IN))
-        for position, view in enumerate(views, 1):
-            axes = figure.add_subplot(1, len(views), position)
-            for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
-                axes.plot(*view.project(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
-            _draw_arm(axes, view.project(chains[-1]), state)
-            show_view(axes, view)
-        figure.suptitle(format_label(_format_caption(state)), x=0.01, ha="left", fontsize=9.5)
-        settle_layout(figure)
-    return svg(figure, "studio", _format_caption(state))
-
-
-def _draw_arm(axes: Axes, chain: FloatArray, state: State) -> None:
-    draw_chain(axes, chain, node_size=0.0, tool_color=SOFT, solid_capstyle="round")
-    for joint, (point, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
-        color, marker = {"healthy": ("white", "o"), "locked": (ORANGE, "X"), "free": (PURPLE, "P")}[condition]
-        size = 6 if condition == "healthy" else 11
-        axes.plot(*point, marker=marker, color=color, markeredgecolor=INK, markersize=size, zorder=3.2 + 0.1 * (size > 6))
-        if condition != "healthy":
-            axes.annotate(
-                format_label(f"{state.names[joint]} {condition}"),
-                tuple(point),
-                (8, 6),
-                textcoords="offset points",
-                color=INK,
-                zorder=4,
-            )
-
-
-def _format_caption(state: State) -> str:
+    locked = [joint for joint in state.failed_joints if joint not in state.free]
+    cell = None if machine.cell is None else machine.cell_with_moved(state.moved)
+    scene = view.scene(
+        machine.arm, [state.q, *ghosts], locked=locked, free=state.free, task=machine.task, meshes=False, cell=cell, lost=False
+    )
     failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed_joints)
-    return f"{state.arm}: {failed or 'all joints healthy'}"
+    caption = f"{state.arm}: {failed or 'all joints healthy'}"
+    elevations = [0.0, np.pi / 2 - 1e-6] if plane_normal(machine.arm) is None else [scene.data["camera"]["elevation"]]
+    drawings = []
+    for number, elevation in enumerate(elevations):
+        camera = scene.data["camera"] | {"elevation": elevation}
+        drawing = draw_scene_svg(replace(scene, data={**scene.data, "camera": camera}), caption)
+        place = f'x="{DRAWING_SIDE_PX * number}" y="20" width="{DRAWING_SIDE_PX}" height="{DRAWING_SIDE_PX}"'
+        drawings.append(drawing.replace("<svg ", f"<svg {place} ", 1))
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {DRAWING_SIDE_PX * len(drawings)} {DRAWING_SIDE_PX + 20}" '
+        f'font-family="sans-serif" role="img" aria-label="{escape(caption, quote=True)}">'
+        f'<text x="8" y="16" font-size="14">{escape(caption)}</text>{"".join(drawings)}</svg>'
+    )

@@ -21,7 +21,7 @@ from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files.hosts import is_loopback_host, request_rejection_reason
 from holdfast.interface.presentation.arm_page.build import build_studio_page
 from holdfast.interface.studio import upload
-from holdfast.interface.studio.answers import LONG_QUESTIONS, QUICK_ANSWERS, Request, ServedArm, answer_in_worker, decode_file
+from holdfast.interface.studio.answers import LONG_QUESTIONS, QUICK_ANSWERS, Request, ServedArm
 from holdfast.interface.studio.machine import CompiledArm, describe_error
 from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import Cancelled
@@ -326,9 +326,9 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             request = served.read_request(body)
             if question in LONG_QUESTIONS:
-                answer = answer_in_worker(served, question, request, self._check_connection, self._send_progress)
+                answer = served.worker_process.run(question, request.state, self._check_connection, self._send_progress)
             elif question == "open" and request.file is not None and upload.detect_file_kind(request.file.name) == "arm":
-                answer = {"address": self._open_arm(request.file.name, decode_file(request.file))}
+                answer = {"address": self._open_arm(request.file.name, request.file.content)}
             else:
                 answer = QUICK_ANSWERS[question](served, request)
         except (Cancelled, OSError):
