@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
+from holdfast.core.provenance import versions
+from holdfast.interface.report.page import Table
+
 if TYPE_CHECKING:
     from holdfast.model.arm.model import Arm
 
 
 def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any], arm_word: str = "arm") -> list[Any]:
     """Build the method section of a page from the given rows, the provenance of the arm, and the package versions."""
-    from markupsafe import Markup
-
-    from holdfast.core.provenance import versions
-    from holdfast.interface.report.page import Table
-
     table_rows = list(rows)
     if arm is not None:
         fingerprint = Markup("<code>{}</code>").format(arm.fingerprint)

@@ -14,16 +14,17 @@ from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
 from holdfast.core.result import Presentable, Result
+from holdfast.interface import report
 from holdfast.interface.presentation import call_presenter, find_presenter
+from holdfast.interface.presentation.notebook import embed_figure, format_table, show_once
 from holdfast.interface.presentation.page_content import build_method_blocks
 from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 from holdfast.interface.presentation.printing import TextTable, print_table, to_json_types
+from holdfast.interface.report import page
+from holdfast.interface.report.page import Block, Callout, Page, Picture, Section, Table, Text
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from rich.console import Console
-
-    from holdfast.interface.report.page import Block, Section
 
 _MAX_NARROW_COLUMNS = 5  # columns
 _HARD_SPACE = "\N{NO-BREAK SPACE}"
@@ -98,8 +99,6 @@ def _list_facts(presentation: Presentation) -> list[list[str]]:
 
 def in_notebook(thing: Presentable) -> str:
     """Return the answer, the key numbers, and the main figure as HTML without scripts, for the output of a notebook cell."""
-    from holdfast.interface.presentation.notebook import format_table
-
     presentation = present(thing)
     answer, *remarks = _list_sentences(presentation)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
@@ -119,8 +118,6 @@ def in_notebook(thing: Presentable) -> str:
 
 def picture(thing: Presentable, about: str) -> str:
     """Return the main figure as HTML, if there is one."""
-    from holdfast.interface.presentation.notebook import embed_figure
-
     main_figure = list(present(thing).figures.items())[:1]
     return "".join(embed_figure((figure.preview or figure.draw)(), f"{name}: {about}") for name, figure in main_figure)
 
@@ -128,19 +125,17 @@ def picture(thing: Presentable, about: str) -> str:
 # ---- figures -------------------------------------------------------------------------------------------------------------
 
 
-def figures(result: Result, **options: Any) -> dict[str, Figure]:
+def figures(result: Result, **options: Any) -> dict[str, report.Figure]:
     """Draw all figures of the result."""
     return {name: figure.draw() for name, figure in present(result, **options).figures.items()}
 
 
-def plot(result: Result, name: str = "", **options: Any) -> Figure:
+def plot(result: Result, name: str = "", **options: Any) -> report.Figure:
     """Draw one figure of the result, the first one if ``name`` is empty; a notebook shows it with or without pyplot.
 
     Raises:
         InputError: The result has no figure, or none with this name.
     """
-    from holdfast.interface.presentation.notebook import show_once
-
     specs: Mapping[str, FigureSpec] = present(result, **options).figures
     if not specs:
         raise InputError(f"{type(result).__name__} has no figure; use result.describe() instead")
@@ -155,20 +150,16 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
 @reports_progress("drawing the report")
 def write(result: Result, path: Path, command: str = "", **options: Any) -> Path:
     """Write the HTML report: the answer, the evidence, the method, and the command that reproduces the run."""
-    from holdfast.interface.report import page
-
     return page.write(build_page(present(result, **options), command), path)
 
 
-def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Any:
+def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, report.Figure] | None = None) -> Any:
     """Build the page of a presentation; ``drawn`` contains figures, by name, that need not be drawn again."""
-    from holdfast.interface.report.page import Callout, Page, Picture, Section, Text
-
     figure_blocks: dict[str, list[Block]] = {}
     for name, figure in presentation.figures.items():
         if figure.on_page:
             drawn_figure = drawn[name] if drawn and name in drawn else figure.draw()
-            image = render_svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
+            image = report.svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
     is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
     facts = list(zip(presentation.facts, is_at_top, strict=True))
@@ -200,8 +191,6 @@ def _is_uninformative(text: str) -> bool:
 
 def build_table_block(table: TextTable) -> Any:
     """Convert a table to a block of a page; columns that contain words are left-aligned."""
-    from holdfast.interface.report.page import Table
-
     head = table.head if any(table.head) else ()
     rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
     is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
@@ -220,17 +209,8 @@ def _flatten_cell(cell: str) -> str:
     return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
 
 
-def render_svg(figure: Figure, name: str, description: str) -> Any:
-    """Render a figure as SVG for a page."""
-    from holdfast.interface.report.figures import svg
-
-    return svg(figure, name, description)
-
-
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100, **options: Any) -> list[Path]:
     """Write the figures as PNG files, the exported files, and the report into a folder; return all written paths."""
-    from holdfast.interface.report import page
-
     folder, presentation = make_folder(folder), present(result, **options)
     drawn = {name: figure.draw() for name, figure in presentation.figures.items() if figure.saved}
     files = []

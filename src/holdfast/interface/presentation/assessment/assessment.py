@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,22 +18,19 @@ from holdfast.core.formatting import (
     format_percent,
     list_alternatives,
 )
+from holdfast.core.probability.distribution import Distribution
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.explanations import explain_index
 from holdfast.interface.presentation.assessment.method import list_method
+from holdfast.interface.presentation.assessment.page import build_sections, draw_overview
+from holdfast.interface.presentation.assessment.sections.gain import draw_cdf_figure
 from holdfast.interface.presentation.assessment.tables import build_tables, rank_optimised_upgrades
 from holdfast.interface.presentation.collision.shape import describe_cell, summarize_shape
+from holdfast.interface.presentation.commands import build_rerun_blocks
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
 from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model.failure_modes import failure_sets
-from holdfast.studies.assessment.assessment import ZERO_INDEX
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.core.probability.distribution import Distribution
-    from holdfast.interface.report.page import Block, Section
-    from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.assessment import ZERO_INDEX, Assessment
 
 Thresholds = Sequence[float] | None
 _USUAL_THRESHOLDS = (0.05, 0.1, 0.2, 0.3)  # of an index with a bound
@@ -66,9 +63,9 @@ def present(
             f"these. Repeat the command to resume."
         )
         notices.append(Notice(text, "bad", "This run is not complete"))
-    figures = {"overview": FigureSpec(partial(_draw_overview, answer), on_page=False)}
+    figures = {"overview": FigureSpec(partial(draw_overview, answer), on_page=False)}
     if distribution.reached > distribution.infinite:
-        figures["cdf"] = FigureSpec(partial(_draw_distribution, answer), on_page=False)
+        figures["cdf"] = FigureSpec(partial(draw_cdf_figure, answer), on_page=False)
     return Presentation(
         f"Fault tolerance of {assessment.arm.name}",
         answer.headline,
@@ -77,10 +74,10 @@ def present(
         facts=_list_facts(answer, rates) if distribution.samples else (),
         tables=partial(build_tables, answer, _choose_thresholds(assessment, thresholds)) if distribution.samples else (),
         figures=figures,
-        sections=partial(_build_sections, answer),
+        sections=partial(build_sections, answer),
         method=list_method(answer),
         arm=assessment.arm,
-        again=partial(_build_rerun_blocks, assessment),
+        again=partial(build_rerun_blocks, assessment),
     )
 
 
@@ -198,30 +195,6 @@ def summarize_collisions(answer: ThresholdAnswer) -> str:
         text += excluded if counts.hopeless else ""
     cell_suffix = "" if clearance.cell is None else f"; {describe_cell(clearance.cell)}"
     return f"{text} ({clearance.capsules.describe(answer.assessment.arm)}{cell_suffix})"
-
-
-def _build_rerun_blocks(assessment: Assessment) -> Sequence[Block]:
-    from holdfast.interface.presentation.commands import build_rerun_blocks
-
-    return build_rerun_blocks(assessment)
-
-
-def _build_sections(answer: ThresholdAnswer) -> Sequence[Section]:
-    from holdfast.interface.presentation.assessment.page import build_sections
-
-    return build_sections(answer)
-
-
-def _draw_overview(answer: ThresholdAnswer) -> Figure:
-    from holdfast.interface.presentation.assessment.page import draw_overview
-
-    return draw_overview(answer)
-
-
-def _draw_distribution(answer: ThresholdAnswer) -> Figure:
-    from holdfast.interface.presentation.assessment.sections.gain import draw_cdf_figure
-
-    return draw_cdf_figure(answer)
 
 
 # ---- JSON ----------------------------------------------------------------------------------------------------------------

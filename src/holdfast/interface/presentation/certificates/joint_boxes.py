@@ -9,10 +9,14 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.verifier import format_percent
+from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.certificates.joint_boxes_figures import (
     Found,
     LeafBoxes,
     display_factors,
+    draw_boxes,
+    draw_value_scale,
+    draw_witness,
     find_largest_lemma,
 )
 from holdfast.interface.presentation.certificates.verification import (
@@ -25,10 +29,6 @@ from holdfast.interface.presentation.presentation import Fact, FigureSpec, Prese
 
 if TYPE_CHECKING:
     from fractions import Fraction
-
-    from matplotlib.figure import Figure
-
-    from holdfast.core.typing import FloatArray
 
 
 def to_dict(proof: Found) -> dict[str, Any]:
@@ -105,7 +105,7 @@ def _present_bound(proof: ManipulabilityBound, check: CertificateCheck | None = 
         answer += f" {occurrence}."
         caption = f"Blue: values {side} the {claim.kind}, which occur at most in undecided boxes. Hatched: values between both."
     bound_text = "wrench bounds the index after a lock" if is_upper_bound else "series of an inverse bounds it after every lock"
-    bound_figure = FigureSpec(partial(_draw, proof, "value_scale"), "The bound and an observed value", caption)
+    bound_figure = FigureSpec(partial(draw_value_scale, proof), "The bound and an observed value", caption)
     return present_proof(
         proof,
         title=f"{'Upper' if is_upper_bound else 'Lower'} bound on relative manipulability of {claim.arm.name}",
@@ -134,21 +134,15 @@ def _list_figures(proof: Found, other_axes: str, lemma_text: str = "") -> dict[s
     """List the figure of the boxes, or that of the configuration that refutes the claim."""
     if proof.refuted:
         caption = "Range of each joint in the claim (bar), and its position in the refuting configuration (dot)."
-        return {"witness": FigureSpec(partial(_draw, proof, "witness"), "The refuting configuration", caption)}
+        return {"witness": FigureSpec(partial(draw_witness, proof), "The refuting configuration", caption)}
     caption = (
         f"{lemma_text}Left: the two axes that were bisected most often, to scale, with the worst case over {other_axes}; "
         "darker areas needed smaller boxes, and hatched areas contain undecided boxes. Right: number of boxes by size."
     )
     if isinstance(proof, ManipulabilityBound):
         caption += " The dot is the configuration found closest to the bound."
-    return {"boxes": FigureSpec(partial(_draw, proof, "boxes"), "Size of the boxes", caption)}
+    return {"boxes": FigureSpec(partial(draw_boxes, proof), "Size of the boxes", caption)}
 
 
 def _list_tables(proof: Found) -> list[TableSpec]:
     return [] if proof.refuted else [LeafBoxes.from_proof(proof).tabulate_hardest()]
-
-
-def _draw(proof: Found, name: str) -> Figure:
-    from holdfast.interface.presentation.certificates import joint_boxes_figures
-
-    return getattr(joint_boxes_figures, f"draw_{name}")(proof)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +16,10 @@ from holdfast.certificates.joint_boxes.exclusion import joint_ranges
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.tree import UNDECIDED_TOKEN
 from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.interface import report
 from holdfast.interface.presentation.certificates.verification import add_legend
 from holdfast.interface.presentation.presentation import Header, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, FAINT, INK, ORANGE, SKY
 
 Found = Refutation | ManipulabilityBound
 
@@ -147,12 +145,8 @@ def find_largest_lemma(document: dict[str, Any]) -> dict[str, Any] | None:
     return None if largest is document else largest
 
 
-def draw_witness(proof: Found) -> Figure:
+def draw_witness(proof: Found) -> report.Figure:
     """Draw the configuration that refutes a claim: the position of each joint within its range."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import FAINT, ORANGE, WIDTH_IN, format_label, settle_layout, style
-
     arm = proof.claim.arm
     if isinstance(proof, ManipulabilityBound):
         spans, q = proof.claim.joint_box, proof.extreme
@@ -160,28 +154,24 @@ def draw_witness(proof: Found) -> Figure:
         assert proof.witness is not None
         spans, q = joint_ranges(proof.claim), proof.witness
     scale = display_factors(~arm.prismatic)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
+    with report.style():
+        figure = report.Figure(figsize=(report.WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
         axes = figure.subplots()
         rows = np.arange(arm.n)
         axes.hlines(rows, *(spans * scale[:, None]).T, color=FAINT, linewidth=7)
         axes.plot(q * scale, rows, "o", color=ORANGE, markersize=7)
-        axes.set(yticks=rows, yticklabels=[format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
+        axes.set(yticks=rows, yticklabels=[report.format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
         axes.set_xlabel("deg" if not arm.prismatic.any() else "deg and m")
-        return settle_layout(figure)
+        return report.settle_layout(figure)
 
 
-def draw_value_scale(proof: ManipulabilityBound) -> Figure:
+def draw_value_scale(proof: ManipulabilityBound) -> report.Figure:
     """Draw a line of values: a value that occurs, the bound, and the values that are proved not to occur."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, WIDTH_IN, settle_layout, style
-
     claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
     bound, value = claim.threshold, proof.value
     axis_end = min(claim.most, 1.6 * max(bound, value))
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.9), layout="constrained")
+    with report.style():
+        figure = report.Figure(figsize=(report.WIDTH_IN, 1.9), layout="constrained")
         axes = figure.subplots()
         excluded_range = (bound, axis_end) if is_upper_bound else (0.0, bound)
         if proof.refuted:
@@ -198,18 +188,14 @@ def draw_value_scale(proof: ManipulabilityBound) -> Figure:
             axes.annotate(label, (position, 1.03), color=color, **place)
         axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
         axes.grid(visible=False)
-        return settle_layout(figure)
+        return report.settle_layout(figure)
 
 
-def draw_boxes(proof: Found) -> Figure:
+def draw_boxes(proof: Found) -> report.Figure:
     """Draw the sizes of the boxes, with the configuration found closest to a bound."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY, WIDTH_IN, settle_layout, style
-
     leaves, marked = LeafBoxes.from_proof(proof), None if isinstance(proof, Refutation) else proof.extreme
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
+    with report.style():
+        figure = report.Figure(figsize=(report.WIDTH_IN, 4.2), layout="constrained")
         plane, bars = figure.subplots(1, 2)
         _draw_projection(plane, leaves, marked)
         proved, undecided = (np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided))
@@ -220,16 +206,14 @@ def draw_boxes(proof: Found) -> Figure:
         bars.set(xlabel="bisections of the whole", ylabel="boxes", title="Number of boxes by size")
         bars.xaxis.get_major_locator().set_params(integer=True)
         add_legend(figure, {"proved (darker: smaller boxes)": SKY})
-        return settle_layout(figure)
+        return report.settle_layout(figure)
 
 
-def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:
+def _draw_projection(axes: report.Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:
     """Draw the boxes over two axes, to scale; the worst box over all other axes counts."""
     from matplotlib.collections import PatchCollection
     from matplotlib.colors import LinearSegmentedColormap
     from matplotlib.patches import Rectangle
-
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, SKY, format_label
 
     shown_axes = leaves.most_halved_axes
     scale = display_factors(leaves.is_angle)[list(shown_axes)]
@@ -248,6 +232,8 @@ def _draw_projection(axes: Axes, leaves: LeafBoxes, marked: FloatArray | None) -
     if marked is not None:
         position = marked[list(shown_axes)] * scale
         axes.plot(*position, "o", color=INK, markersize=7, markeredgecolor="white", clip_on=False)
-    labels = [f"{format_label(leaves.axis_names[axis])} [{'deg' if leaves.is_angle[axis] else 'm'}]" for axis in shown_axes]
+    labels = [
+        f"{report.format_label(leaves.axis_names[axis])} [{'deg' if leaves.is_angle[axis] else 'm'}]" for axis in shown_axes
+    ]
     axes.set(xlabel=labels[0], ylabel=labels[1], title="Position of the small boxes")
     axes.grid(visible=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +15,12 @@ from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.files.csv_table import write_rows
 from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.convergence.law_figures import (
+    draw_healthy_costs,
+    draw_law_errors,
+    draw_law_gains,
+    draw_law_outcomes,
+)
 from holdfast.interface.presentation.convergence.law_tables import (
     build_contact_table,
     build_cost_table,
@@ -27,9 +33,6 @@ from holdfast.interface.presentation.convergence.law_tables import (
 )
 from holdfast.interface.presentation.convergence.shares import rank_successes
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _NOTABLE_UNDECIDED_FRACTION = 0.05
 _GAIN_METHOD = (
@@ -84,16 +87,20 @@ def present(comparison: LawComparison) -> Presentation:
         "healthy.csv": tabulate_healthy_costs(comparison),
         "runs.csv": tabulate_runs(comparison),
     }
-    figures = {"outcomes": _figure(comparison, "draw_law_outcomes", "Outcomes by locked joint", _OUTCOME_CAPTION)}
+    figures = {
+        "outcomes": FigureSpec(
+            partial(draw_law_outcomes, comparison), "Outcomes by locked joint", _OUTCOME_CAPTION, saved=False
+        )
+    }
     if can_compare(comparison):
         gains = tabulate_gains(comparison)
         files["gains.csv"] = gains
         tables.append(build_gain_table(comparison, gains))
         caption = f"Paired differences from {names[0]} over {motions}. Lines are 95 % intervals."
-        figures["gains"] = _figure(comparison, "draw_law_gains", f"Differences from {names[0]}", caption)
+        figures["gains"] = FigureSpec(partial(draw_law_gains, comparison), f"Differences from {names[0]}", caption, saved=False)
     if comparison.joints:
         caption = f"{format_count(len(comparison) * len(comparison.joints), 'run')} of each law; all joints weigh the same."
-        figures["errors"] = _figure(comparison, "draw_law_errors", "Errors at the end", caption)
+        figures["errors"] = FigureSpec(partial(draw_law_errors, comparison), "Errors at the end", caption, saved=False)
     method: list[tuple[str, str]] = [("Motions", comparison.about or "given by the user")]
     method += [(name, law.describe()) for name, law in zip(names, laws, strict=True)]
     first_run = comparison.runs[0]
@@ -119,7 +126,7 @@ def present(comparison: LawComparison) -> Presentation:
             "converge under every law with no joint locked, each at 65 samples."
         )
         title = "Cost while the arm is healthy"
-        figures["healthy"] = _figure(comparison, "draw_healthy_costs", title, caption)
+        figures["healthy"] = FigureSpec(partial(draw_healthy_costs, comparison), title, caption, saved=False)
     else:
         lines.append("No motion converges under every law while the arm is healthy, so there is no cost to compare.")
     reasons = {
@@ -140,18 +147,6 @@ def present(comparison: LawComparison) -> Presentation:
         arm=arm,
         exports={name: partial(_write_csv, rows) for name, rows in files.items()},
     )
-
-
-def _figure(comparison: LawComparison, function: str, title: str, caption: str) -> FigureSpec:
-    """Describe a figure that a function of ``law_figures`` draws; that module imports matplotlib."""
-
-    def draw() -> Figure:
-        from holdfast.interface.presentation.convergence import law_figures
-
-        figure: Figure = getattr(law_figures, function)(comparison)
-        return figure
-
-    return FigureSpec(draw, title, caption, saved=False)
 
 
 def _list_notices(comparison: LawComparison) -> list[Notice]:

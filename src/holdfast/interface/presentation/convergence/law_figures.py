@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.control.convergence.law_comparison import ANY_JOINT, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.core.formatting import capitalise_first
 from holdfast.core.probability.intervals import Difference
+from holdfast.interface import report
 from holdfast.interface.presentation.convergence.law_tables import OUTCOME_NAMES, get_time_unit
-from holdfast.interface.report.figures import Curve, compare_cdf_figure
-from holdfast.interface.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 
 _COST_MEASURES = (
     ("deviation", "distance from the line, m", 1.0),
@@ -20,7 +18,7 @@ _COST_MEASURES = (
 )
 
 
-def draw_law_outcomes(comparison: LawComparison) -> Figure:
+def draw_law_outcomes(comparison: LawComparison) -> report.Figure:
     """Draw stacked bars of the outcomes, with a group for each failure and a bar for each law."""
     stacks = []
     for failure in comparison.failures:
@@ -31,7 +29,7 @@ def draw_law_outcomes(comparison: LawComparison) -> Figure:
             np.array([getattr(interval, bound) if interval else np.nan for interval in intervals]) for bound in ("low", "high")
         )
         stacks.append(
-            Stack(
+            report.Stack(
                 name=failure,
                 bars=comparison.names,
                 shares=shares,
@@ -40,21 +38,21 @@ def draw_law_outcomes(comparison: LawComparison) -> Figure:
                 level=float(cases[0].reachable.mean()),
             )
         )
-    return stack_figure(
+    return report.stack_figure(
         stacks, OUTCOME_NAMES, f"fraction of the {len(comparison):,} motions", level="targets still within reach"
     )
 
 
-def draw_law_gains(comparison: LawComparison) -> Figure:
+def draw_law_gains(comparison: LawComparison) -> report.Figure:
     """Draw the paired differences to the first law, by joint."""
     failures = [*comparison.joints, ANY_JOINT]
 
-    def make_gains(name: str, differences: list[Difference], factor: float = 1.0) -> Gains:
+    def make_gains(name: str, differences: list[Difference], factor: float = 1.0) -> report.Gains:
         value, lower, upper = (
             factor * np.array([getattr(difference, attribute) for difference in differences])
             for attribute in ("value", "low", "high")
         )
-        return Gains(label=name, value=value, low=lower, high=upper)
+        return report.Gains(label=name, value=value, low=lower, high=upper)
 
     converged_gains = [
         make_gains(name, [comparison.gain(name, failure) for failure in failures]) for name in comparison.names[1:]
@@ -69,10 +67,10 @@ def draw_law_gains(comparison: LawComparison) -> Figure:
         )
         for kind in error_kinds(comparison.laws[0])
     ]
-    return gain_figure(failures, [("fraction that converges", converged_gains), *error_panels])
+    return report.gain_figure(failures, [("fraction that converges", converged_gains), *error_panels])
 
 
-def draw_law_errors(comparison: LawComparison) -> Figure:
+def draw_law_errors(comparison: LawComparison) -> report.Figure:
     """Draw cumulative distributions of the errors at the end, in mm and degrees, over all joints; with one unit also their
     excess.
     """
@@ -91,16 +89,20 @@ def draw_law_errors(comparison: LawComparison) -> Figure:
         curves = []
         for name, values in zip(comparison.names, samples, strict=True):
             finite = np.sort(values[np.isfinite(values)])
-            curves.append(Curve(axis_values, np.searchsorted(finite, axis_values, side="right") / max(len(values), 1), name))
+            curves.append(
+                report.Curve(axis_values, np.searchsorted(finite, axis_values, side="right") / max(len(values), 1), name)
+            )
         panels.append((title, curves))
     unit_text = " or ".join(kind.unit for kind in kinds)
-    return compare_cdf_figure(panels, [], f"error, {unit_text}", ylabel="fraction of runs with at most this error", log=True)
+    return report.compare_cdf_figure(
+        panels, [], f"error, {unit_text}", ylabel="fraction of runs with at most this error", log=True
+    )
 
 
-def draw_healthy_costs(comparison: LawComparison) -> Figure:
+def draw_healthy_costs(comparison: LawComparison) -> report.Figure:
     """Draw quantiles of the cost of each law for the healthy arm."""
     spreads = []
     for measure, label, factor in _COST_MEASURES:
         quantiles = factor * np.array([comparison.cost(name, measure) for name in comparison.names])  # type: ignore[arg-type]
-        spreads.append(Spread(label.format(unit=get_time_unit(comparison)), quantiles))
-    return spread_figure(comparison.names, spreads)
+        spreads.append(report.Spread(label.format(unit=get_time_unit(comparison)), quantiles))
+    return report.spread_figure(comparison.names, spreads)

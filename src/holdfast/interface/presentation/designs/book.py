@@ -6,11 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import TableSpec
-from holdfast.interface.report import figures as drawing
 from holdfast.interface.report.page import Picture, Section, Table, Text
 from holdfast.interface.report.palette import BLUE, INK, ORANGE
 from holdfast.studies.designs.record_book.entries import DesignRecord, RecordBook
@@ -27,8 +25,8 @@ def build_sections(book: RecordBook, tabulate: Tabulate) -> list[Section]:
     sections, arm_records = [], [record for record in book.values() if record.arm is not None]
     for task, title in _TITLES_BY_TASK.items():
         records = [record for record in arm_records if record.data.kind.of is None and record.data.kind.task == task]
-        with drawing.style():
-            picture = drawing.svg(draw_stick_figures(records), task, f"Stick figures of {len(records)} arms")
+        with report.style():
+            picture = report.svg(draw_stick_figures(records), task, f"Stick figures of {len(records)} arms")
         sections.append(Section(title, [_build_table(records, tabulate), Picture(picture, _PICTURE_CAPTION)]))
     commercial_text = Text(
         "The best configuration found of each arm within its joint limits, and the upper bound for arms with as many joints."
@@ -54,10 +52,10 @@ def _build_table(records: Sequence[DesignRecord], tabulate: Tabulate) -> Table:
     return Table(rows, [*texts.head, "files"], frozenset({2, 3, 4, 5, 7}), wide=True)
 
 
-def draw_stick_figures(records: Sequence[DesignRecord]) -> Figure:
+def draw_stick_figures(records: Sequence[DesignRecord]) -> report.Figure:
     """Draw arms as stick figures, each projected onto the plane in which it is widest."""
     row_count = -(-len(records) // _COLUMN_COUNT)
-    picture = Figure(figsize=(10, 2.5 * row_count), layout="constrained")
+    picture = report.Figure(figsize=(10, 2.5 * row_count), layout="constrained")
     panels = picture.subplots(row_count, _COLUMN_COUNT, squeeze=False).ravel()
     for axes in panels:
         axes.set_axis_off()
@@ -66,7 +64,7 @@ def draw_stick_figures(records: Sequence[DesignRecord]) -> Figure:
     return picture
 
 
-def _draw_stick_figure(axes: Axes, record: DesignRecord) -> None:
+def _draw_stick_figure(axes: report.Axes, record: DesignRecord) -> None:
     arm = record.arm
     assert arm is not None
     frames = arm.frames(record.q)
@@ -85,4 +83,4 @@ def _draw_stick_figure(axes: Axes, record: DesignRecord) -> None:
     for set_limits, middle_value in zip((axes.set_xlim, axes.set_ylim), center, strict=True):
         set_limits(middle_value - 0.6 * width, middle_value + 0.6 * width)
     axes.set_aspect("equal")
-    axes.set_title(f"{drawing.format_label(record.id)}\n{width:.2g} m wide", fontsize=7)
+    axes.set_title(f"{report.format_label(record.id)}\n{width:.2g} m wide", fontsize=7)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.files.output import write_files
 from holdfast.core.formatting import format_percent
 from holdfast.interface.presentation import renderers
+from holdfast.interface.presentation.designs.book import build_sections
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.record_book.entries import (
     TOTAL_LINK_LENGTH_M,
@@ -18,9 +19,6 @@ from holdfast.studies.designs.record_book.entries import (
     RecordCheck,
     find_best_record,
 )
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Section
 
 PAGE_FILE = "records.html"
 _ZERO_GAP = 1e-8  # relative gap that is due to rounding
@@ -52,7 +50,7 @@ def present(result: RecordBook | DesignRecord | RecordCheck) -> Presentation:
         answer,
         about="Remaining manipulability or workspace after the worst locks, or number of joint revolutions in one self-motion",
         tables=[_tabulate_records(result.values(), on_page=False)],
-        sections=partial(_build_sections, result),
+        sections=partial(build_sections, result, _tabulate_records),
         method=[("Checks", "Each record is one file and is checked by independent code: holdfast record-designs check.")],
     )
 
@@ -112,12 +110,6 @@ def _tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> 
 
 def _format_gap(record: DesignRecord) -> str:
     return "0" if record.gap < _ZERO_GAP else format_percent(record.gap)
-
-
-def _build_sections(book: RecordBook) -> list[Section]:
-    from holdfast.interface.presentation.designs.book import build_sections
-
-    return build_sections(book, _tabulate_records)
 
 
 def save(result: RecordBook | DesignRecord | RecordCheck, folder: Path, command: str = "") -> list[Path]:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.control.equilibria.attraction import Basins
 from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface.presentation.equilibria import points as points_of
+from holdfast.interface.presentation.equilibria.figures import draw_basins
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def to_dict(basins: Basins) -> dict[str, Any]:
@@ -79,7 +77,7 @@ def present(basins: Basins) -> Presentation:
         tables=[TableSpec("Outcomes of the starts", columns, rows)],
         figures={
             "basins": FigureSpec(
-                partial(_draw_basins, basins), "Basins of attraction", f"{start_count} by outcome; {sampling_text}."
+                partial(draw_basins, basins), "Basins of attraction", f"{start_count} by outcome; {sampling_text}."
             )
         },
         sections=partial(points_of.draw_stationary_arms, points),
@@ -113,9 +111,3 @@ def _target_errors(basins: Basins) -> dict[str, str]:
         for point, error in enumerate(points_of.format_target_errors(basins.points))
         if basins.points.kind[point] != Kind.SOLUTION
     }
-
-
-def _draw_basins(basins: Basins) -> Figure:
-    from holdfast.interface.presentation.equilibria.figures import draw_basins
-
-    return draw_basins(basins)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,11 +12,9 @@ from holdfast.control.equilibria.stability import Kind
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import list_alternatives
+from holdfast.interface.presentation.equilibria.figures import draw_curves
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def to_dict(curves: Curves) -> dict[str, Any]:
@@ -103,7 +101,7 @@ def present(curves: Curves) -> Presentation:
         facts=facts,
         lines=_compose_remarks(curves),
         tables=[_tabulate_segments(curves)] if curves.curves else [],
-        figures={"curves": FigureSpec(partial(_draw_curves, curves), "Stationary points over the locked value", caption)},
+        figures={"curves": FigureSpec(partial(draw_curves, curves), "Stationary points over the locked value", caption)},
         method=[
             (
                 "Search",
@@ -153,9 +151,3 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
         Header(kind.key, f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)
     ]
     return TableSpec("Segments of one kind", columns, rows)
-
-
-def _draw_curves(curves: Curves) -> Figure:
-    from holdfast.interface.presentation.equilibria.figures import draw_curves
-
-    return draw_curves(curves)

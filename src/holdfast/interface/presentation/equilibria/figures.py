@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.control.equilibria.attraction import Basins
@@ -12,7 +11,7 @@ from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.system import wrap_angles
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.curves import StationaryCurve, basin_fraction_figure, basin_map_figure, stationary_curves_figure
+from holdfast.interface import report
 from holdfast.model.arm.model import Arm
 
 # Number of cells of the locked value, and of samples per cell, that show where the target is within reach
@@ -21,7 +20,7 @@ _SAMPLES_PER_CELL = 16
 _MAX_SHOWN_JOINTS = 3
 
 
-def draw_curves(curves: Curves) -> Figure:
+def draw_curves(curves: Curves) -> report.Figure:
     """Draw curves of stationary points over the locked value: the error, and the other joints if they are few.
 
     Ranges in which the target can be reached are shaded; inverse kinematics finds them in steps of 1 degree, or 1/360 of the
@@ -39,14 +38,16 @@ def draw_curves(curves: Curves) -> Figure:
         return [*errors, *(_display_values(arm, stationary.q[selected], index) for index in other_joints)]
 
     lines = [
-        StationaryCurve(segment.kind.word, _display_values(arm, curve.q[span], joint), plot_rows(curve, span))
+        report.curves.StationaryCurve(segment.kind.word, _display_values(arm, curve.q[span], joint), plot_rows(curve, span))
         for curve in curves.curves
         for segment in curve.segments
         for span in [slice(segment.first, segment.last + 1)]
     ]
     surface_points = curves.loose
     point_lines = [
-        StationaryCurve(word, _display_values(arm, surface_points.q[selected], joint), plot_rows(surface_points, selected))
+        report.curves.StationaryCurve(
+            word, _display_values(arm, surface_points.q[selected], joint), plot_rows(surface_points, selected)
+        )
         for word, selected in (("degenerate", ~surface_points.attracting), ("sink", surface_points.attracting))
         if selected.any()
     ]
@@ -56,12 +57,12 @@ def draw_curves(curves: Curves) -> Figure:
         f"{len(curves)} curves from {curves.starts} starts"
         + (f", dots: {len(surface_points)} points sampled from surfaces" if len(surface_points) else "")
     )
-    return stationary_curves_figure(
+    return report.curves.stationary_curves_figure(
         lines, point_lines, labels, _axis_label(arm, joint), (values[0], values[-1]), reached, caption
     )
 
 
-def draw_basins(basins: Basins) -> Figure:
+def draw_basins(basins: Basins) -> report.Figure:
     """Draw a map of the basins where the initial configurations are a grid over two joints (Fig. 8 of Goel et al. 2005), else
     bars.
     """
@@ -75,7 +76,7 @@ def draw_basins(basins: Basins) -> Figure:
     shares = basins.shares
     if basins.shape is None:
         caption_text = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
-        return basin_fraction_figure(
+        return report.curves.basin_fraction_figure(
             [outcome for outcome, _ in shares],
             [(interval.value, interval.low, interval.high) for _, interval in shares],
             caption_text,
@@ -93,7 +94,7 @@ def draw_basins(basins: Basins) -> Figure:
     marks = [(points.kinds[index], value[index], y[index], f"{points.kinds[index]} {index + 1}") for index in isolated]
     lines = [(_display_values(arm, q, first), _display_values(arm, q, second)) for q in basins.boundaries]
     extent = (float(lower_shown[0]), float(upper_shown[0]), float(lower_shown[1]), float(upper_shown[1]))
-    return basin_map_figure(
+    return report.curves.basin_map_figure(
         cells.reshape(basins.shape), names, extent, marks, lines, (_axis_label(arm, first), _axis_label(arm, second)), caption
     )
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
-from holdfast.interface.presentation.arm.view import scene
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import choose_views, scene
 from holdfast.interface.presentation.collision.shape import describe_shape
 from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
 from holdfast.kinematics.path_following.trajectory import TRACKING_TOLERANCE, Trajectory, find_susceptibilities
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MAX_VIEW_FRAMES = 201
 # A relative change below _NEGLIGIBLE_CHANGE is reported as none; above _MAX_RELATIVE_CHANGE a percentage is not helpful.
@@ -24,22 +20,19 @@ _MAX_RELATIVE_CHANGE = 10.0
 SPEED_FACTORS = (1.0, 0.5, 0.25)  # fractions of the duration of the motion, as in Figs. 9 to 12
 
 
-def draw_figure(trajectory: Trajectory) -> Figure:
+def draw_figure(trajectory: Trajectory) -> report.Figure:
     """Draw the arm at start and end, the path of its tool, and the objective over time."""
-    from holdfast.interface.presentation.arm.view import choose_views
-    from holdfast.interface.report.motions import StickMotion, TimePanel, stick_motion_figure
-
     chain = trajectory.arm.frames(trajectory.q)[..., :3, 3]
-    moving = StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
+    moving = report.motions.StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
     unit = "" if trajectory.objective.unit in ("1", "mixed") else f", {trajectory.objective.unit}"
-    panel = TimePanel(
+    panel = report.motions.TimePanel(
         trajectory.time,
         trajectory.value,
         f"{trajectory.objective.name}{unit}",
         f"{capitalise_first(trajectory.objective.better)} is better",
     )
     caption = f"{trajectory.arm.name}, {trajectory.method}, {len(trajectory.time):,} samples"
-    return stick_motion_figure(
+    return report.motions.stick_motion_figure(
         moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="desired path"
     )
 

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.recovery.recovery_figures import build_sections, draw_motion, draw_timing
 from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
 from holdfast.interface.presentation.renderers import sentences, write_json
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
-from holdfast.response.recovery.recovery import RecoveryOutcome
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.response.recovery.goals import RelaxedRows
-    from holdfast.response.recovery.recovery import Recovery
-    from holdfast.response.recovery.timing.motion import TimedMotion
+from holdfast.response.recovery.goals import RelaxedRows
+from holdfast.response.recovery.recovery import Recovery, RecoveryOutcome
+from holdfast.response.recovery.timing.motion import TimedMotion
 
 _TIMING_CAPTION = "Joint rates and accelerations over time, each divided by its limit."
 
@@ -109,7 +103,7 @@ def present(recovery: Recovery) -> Presentation:
     """Present whether the goal is reached, the motion with its checks, and the remaining workspace."""
     arm = recovery.arm
     remainder = None if recovery.left is None else present_remainder(recovery.left)
-    timing = None if recovery.timed is None else FigureSpec(partial(_draw, recovery, "timing"), "Timing", _TIMING_CAPTION)
+    timing = None if recovery.timed is None else FigureSpec(partial(draw_timing, recovery), "Timing", _TIMING_CAPTION)
     exports: dict[str, Any] = {"recovery.json": partial(write_json, recovery)}
     return Presentation(
         f"{arm.name} after a known failure",
@@ -119,11 +113,11 @@ def present(recovery: Recovery) -> Presentation:
         facts=[*_list_facts(recovery), *([] if remainder is None else remainder.facts)],
         tables=[_tabulate_joints(recovery)],
         figures={
-            "motion": FigureSpec(partial(_draw, recovery, "motion"), on_page=False),
+            "motion": FigureSpec(partial(draw_motion, recovery), on_page=False),
             **({} if timing is None else {"timing": timing}),
             **({} if remainder is None else remainder.figures),
         },
-        sections=partial(_build_sections, recovery),
+        sections=partial(build_sections, recovery),
         method=[
             ("Goal", recovery.goal),
             ("Task", recovery.task.describe()),
@@ -233,15 +227,3 @@ def _describe_timing(timed_motion: TimedMotion) -> str:
         f"as fast as the speed limits and accelerations of {limits} allow, with parabolic blends at waypoints where they are "
         f"proved collision-free; one row every {format_number(timed_motion.period, 4)} s"
     )
-
-
-def _build_sections(recovery: Recovery) -> Sequence[Section]:
-    from holdfast.interface.presentation.recovery.recovery_figures import build_sections
-
-    return build_sections(recovery)
-
-
-def _draw(recovery: Recovery, name: str) -> Figure:
-    from holdfast.interface.presentation.recovery import recovery_figures
-
-    return recovery_figures.draw_timing(recovery) if name == "timing" else recovery_figures.draw_motion(recovery)

@@ -3,31 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import scene
-from holdfast.interface.report.figures import (
-    BLUE,
-    FAINT,
-    ORANGE,
-    SKY,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    legend_below,
-    settle_layout,
-    style,
-)
-from holdfast.interface.report.motions import TimePanel, motion_figure
 from holdfast.interface.report.page import Picture, Section
-from holdfast.interface.report.scenes import Scale, Scene, add_color_bar, choose_dot_area, draw_view, fit_view_spans
+from holdfast.interface.report.palette import BLUE, FAINT, ORANGE, SKY, SOFT
 from holdfast.interface.report.views import SIDE_VIEW, choose_side_and_top_views
-
-if TYPE_CHECKING:
-    from holdfast.response.recovery.recovery import Recovery
+from holdfast.response.recovery.recovery import Recovery
 
 _PATH_DOTS = 160  # samples of the tool path
 _GHOST_COUNT = 4  # drawings of the arm between start and end
@@ -54,7 +39,7 @@ def build_sections(recovery: Recovery) -> list[Section]:
     return [Section("The motion", [Picture(view.to_html("motion", caption), caption)])]
 
 
-def draw_motion(recovery: Recovery) -> Figure:
+def draw_motion(recovery: Recovery) -> report.Figure:
     """Draw the arm at its start, on its path, and at its end; the path of the tool is coloured from start to end."""
     arm = recovery.arm
     has_motion = len(recovery.q) > 1
@@ -67,7 +52,7 @@ def draw_motion(recovery: Recovery) -> Figure:
     # The box widens the view so that it contains everything that is drawn by hand below.
     drawn_points = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     bounds = np.array([drawn_points.min(axis=0), drawn_points.max(axis=0)])
-    arm_scene = Scene(
+    arm_scene = report.Scene(
         points,
         np.linspace(0, 100, len(points)),
         np.zeros((0, 3)),
@@ -78,12 +63,12 @@ def draw_motion(recovery: Recovery) -> Figure:
     )
     views = choose_side_and_top_views(arm_scene.extent) or [SIDE_VIEW]
     arm_scene = replace(arm_scene, box=None)
-    extent_scene = Scene(drawn_points, np.zeros(len(drawn_points)), points, chain=final)
-    scale = Scale(0.0, 100.0)
-    with style():
+    extent_scene = report.Scene(drawn_points, np.zeros(len(drawn_points)), points, chain=final)
+    scale = report.Scale(0.0, 100.0)
+    with report.style():
         panel_width = 4.1 if len(views) > 1 else 5.0
-        spans, height = fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
-        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
+        spans, height = report.scenes.fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
+        figure = report.Figure(figsize=(report.WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
@@ -95,8 +80,14 @@ def draw_motion(recovery: Recovery) -> Figure:
                 axes.plot(
                     *view.project(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="start"
                 )
-            draw_view(
-                axes, arm_scene, view, scale, choose_dot_area(arm_scene, views, panel_width / spans[0]), spans, panel_width
+            report.scenes.draw_view(
+                axes,
+                arm_scene,
+                view,
+                scale,
+                report.scenes.choose_dot_area(arm_scene, views, panel_width / spans[0]),
+                spans,
+                panel_width,
             )
             locked_at_start = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             locked_at_end = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
@@ -113,20 +104,20 @@ def draw_motion(recovery: Recovery) -> Figure:
                 xlim=(center_x - spans[0] / 2, center_x + spans[0] / 2), ylim=(center_y - spans[1] / 2, center_y + spans[1] / 2)
             )
         if has_motion:
-            add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
-        legend_below(figure, panels[0], 5)
-        figure.suptitle(format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
-        return settle_layout(figure)
+            report.scenes.add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
+        report.legend_below(figure, panels[0], 5)
+        figure.suptitle(report.format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
+        return report.settle_layout(figure)
 
 
-def draw_timing(recovery: Recovery) -> Figure:
+def draw_timing(recovery: Recovery) -> report.Figure:
     """Draw rates and accelerations of the moving joints as fractions of their limits, over time."""
     timed_motion = recovery.timed
     assert timed_motion is not None
     moving_joints = np.flatnonzero(np.abs(timed_motion.qd).max(axis=0) > 0)
     speed_limits = np.where(np.isfinite(recovery.degraded.v), recovery.degraded.v, np.abs(timed_motion.qd).max(axis=0))
     panels = [
-        TimePanel(
+        report.motions.TimePanel(
             timed_motion.time,
             {timed_motion.arm.joint_names[joint]: values[:, joint] / limits[joint] for joint in moving_joints},
             f"{quantity} / limit",
@@ -138,7 +129,7 @@ def draw_timing(recovery: Recovery) -> Figure:
             ("acceleration", "Accelerations", timed_motion.qdd, timed_motion.accelerations),
         )
     ]
-    return motion_figure(panels, f"{recovery.arm.name}: {timed_motion.describe()}", "time, s")
+    return report.motions.motion_figure(panels, f"{recovery.arm.name}: {timed_motion.describe()}", "time, s")
 
 
 def _compose_title(recovery: Recovery) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,17 +17,15 @@ from holdfast.core.formatting import capitalise_first, format_number, format_per
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
 from holdfast.interface.presentation.printing import to_json_types
+from holdfast.interface.report.page import Section
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 from holdfast.kinematics.solvers.optima import Optima
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Section
-
 
 _NEGLIGIBLE_CHANGE = 1e-4  # relative change below which the configuration before counts as the best one
 _MAX_RELATIVE_CHANGE = 10.0  # larger relative changes are not printed, because a percentage would not be informative
@@ -234,8 +232,6 @@ def _compare_clearance(rows: Optima) -> tuple[list[Fact], str]:
 
 
 def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     pose_index = int(rows.success.argmax())
     caption = f"The arm at its best configuration and, transparent, at {reference}"
     caption += "." if rows.free else ". Both have the same tool pose."

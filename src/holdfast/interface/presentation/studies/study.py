@@ -5,23 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from markupsafe import Markup
 
 from holdfast.core.errors import StoreError
 from holdfast.core.formatting import format_count, format_duration, list_alternatives
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
+from holdfast.interface.presentation.studies.sections import build_sections
+from holdfast.interface.report import page
+from holdfast.interface.report.page import Block, Code, Text
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.single_points import Structure, structure
 from holdfast.studies.study_files import results
 from holdfast.studies.study_files.ranking import Ended, Key, make_structure_key, rank_arms
 from holdfast.studies.study_files.results import AssessedCell
 from holdfast.studies.study_files.study_file import read_thresholds
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Block
 
 _MAX_TABLE_CELLS = 40  # combinations (cells of the study) in a table
 
@@ -82,9 +85,6 @@ def write(study: Study, path: Path, command: str = "") -> Path:
     Raises:
         StoreError: No chunk has been computed, a chunk is damaged, or the file cannot be written.
     """
-    from holdfast.interface.presentation.renderers import build_page
-    from holdfast.interface.report import page
-
     return page.write(build_page(present_results(study), command), path)
 
 
@@ -116,18 +116,13 @@ def present_results(study: Study) -> Presentation:
     missing = f"{chunks_done:,} of {chunk_count:,} chunks have been computed. Repeat the command to resume."
     arm_names = list(dict.fromkeys(cell["labels"]["arm"] for cell in study.cells))
 
-    def build_sections() -> Sequence[Any]:
-        from holdfast.interface.presentation.studies.sections import build_sections
-
-        return build_sections(study, assessed, laws, sweeps, limits, fatal_structures, ranking)
-
     return Presentation(
         study.name,
         compose_answer(ranking, sweeps, has_rankings=bool(assessed or laws or not sweeps)),
         about=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
         notices=[Notice(missing, "bad", "Not complete")] if chunks_done < chunk_count else [],
         facts=list_leaders(ranking),
-        sections=build_sections,
+        sections=partial(build_sections, study, assessed, laws, sweeps, limits, fatal_structures, ranking),
         method=_list_method(study, assessed),
         again=partial(_build_rerun_blocks, study),
     )
@@ -198,10 +193,6 @@ def _describe_maker(maker: dict[str, Any]) -> str:
 
 
 def _build_rerun_blocks(study: Study) -> list[Block]:
-    from markupsafe import Markup
-
-    from holdfast.interface.report.page import Code, Text
-
     blocks: list[Block] = [Text("The same file, versions and kind of processor give the same bits.", quiet=True)]
     if study.source:
         lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]
