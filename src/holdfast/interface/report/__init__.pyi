@@ -21,6 +21,7 @@ from holdfast.interface.report.figures import locate_axes as locate_axes
 from holdfast.interface.report.figures import save_png as save_png
 from holdfast.interface.report.figures import settle_layout as settle_layout
 from holdfast.interface.report.figures import style as style
+from holdfast.interface.report.figures import styled_figure as styled_figure
 from holdfast.interface.report.figures import svg as svg
 from holdfast.interface.report.maps import map_figure as map_figure
 from holdfast.interface.report.maps import share_figure as share_figure

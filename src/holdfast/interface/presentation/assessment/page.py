@@ -82,8 +82,7 @@ def draw_overview(answer: ThresholdAnswer) -> report.Figure:
     """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
     facts = AssessmentFacts.extend_answer(answer)
     view = facts.main_view
-    with report.style():
-        figure = report.Figure(figsize=(12, 5.2))
+    with report.styled_figure(12, 5.2) as figure:
         scene_axes, cdf_axes = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
         spans, _ = report.scenes.fit_view_spans(scene, [view], 5.0, 4.1, 4.1)
@@ -109,4 +108,4 @@ def draw_overview(answer: ThresholdAnswer) -> report.Figure:
             message = "the index is infinite everywhere" if facts.distribution.reached else "no configuration found"
             cdf_axes.text(0.5, 0.5, message, ha="center", va="center", color=report.SOFT)
             cdf_axes.set_axis_off()
-        return report.settle_layout(figure)
+    return figure

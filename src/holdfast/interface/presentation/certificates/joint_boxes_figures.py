@@ -154,15 +154,14 @@ def draw_witness(proof: Found) -> report.Figure:
         assert proof.witness is not None
         spans, q = joint_ranges(proof.claim), proof.witness
     scale = display_factors(~arm.prismatic)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 0.9 + 0.3 * arm.n), layout="constrained")
+    with report.styled_figure(report.WIDTH_IN, 0.9 + 0.3 * arm.n) as figure:
         axes = figure.subplots()
         rows = np.arange(arm.n)
         axes.hlines(rows, *(spans * scale[:, None]).T, color=FAINT, linewidth=7)
         axes.plot(q * scale, rows, "o", color=ORANGE, markersize=7)
         axes.set(yticks=rows, yticklabels=[report.format_label(name) for name in arm.joint_names], ylim=(arm.n - 0.5, -0.5))
         axes.set_xlabel("deg" if not arm.prismatic.any() else "deg and m")
-        return report.settle_layout(figure)
+    return figure
 
 
 def draw_value_scale(proof: ManipulabilityBound) -> report.Figure:
@@ -170,8 +169,7 @@ def draw_value_scale(proof: ManipulabilityBound) -> report.Figure:
     claim, is_upper_bound = proof.claim, proof.claim.kind == "ceiling"
     bound, value = claim.threshold, proof.value
     axis_end = min(claim.most, 1.6 * max(bound, value))
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 1.9), layout="constrained")
+    with report.styled_figure(report.WIDTH_IN, 1.9) as figure:
         axes = figure.subplots()
         excluded_range = (bound, axis_end) if is_upper_bound else (0.0, bound)
         if proof.refuted:
@@ -188,14 +186,13 @@ def draw_value_scale(proof: ManipulabilityBound) -> report.Figure:
             axes.annotate(label, (position, 1.03), color=color, **place)
         axes.set(xlim=(0, axis_end), ylim=(0, 1), yticks=[], xlabel="least relative manipulability after one lock")
         axes.grid(visible=False)
-        return report.settle_layout(figure)
+    return figure
 
 
 def draw_boxes(proof: Found) -> report.Figure:
     """Draw the sizes of the boxes, with the configuration found closest to a bound."""
     leaves, marked = LeafBoxes.from_proof(proof), None if isinstance(proof, Refutation) else proof.extreme
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 4.2), layout="constrained")
+    with report.styled_figure(report.WIDTH_IN, 4.2) as figure:
         plane, bars = figure.subplots(1, 2)
         _draw_projection(plane, leaves, marked)
         proved, undecided = (np.bincount(leaves.halvings[selected]) for selected in (~leaves.undecided, leaves.undecided))
@@ -206,7 +203,7 @@ def draw_boxes(proof: Found) -> report.Figure:
         bars.set(xlabel="bisections of the whole", ylabel="boxes", title="Number of boxes by size")
         bars.xaxis.get_major_locator().set_params(integer=True)
         add_legend(figure, {"proved (darker: smaller boxes)": SKY})
-        return report.settle_layout(figure)
+    return figure
 
 
 def _draw_projection(axes: report.Axes, leaves: LeafBoxes, marked: FloatArray | None) -> None:

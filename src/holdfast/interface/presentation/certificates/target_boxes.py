@@ -103,12 +103,11 @@ def _find_worst_height(box: FloatArray, cells: FloatArray) -> float:
 
 
 def _draw_slices(box: FloatArray, cells: FloatArray, slices: list[tuple[int, int, tuple[int, float] | None]]) -> report.Figure:
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN if len(slices) > 1 else report.WIDTH_IN / 2, 3.9), layout="constrained")
+    with report.styled_figure(report.WIDTH_IN if len(slices) > 1 else report.WIDTH_IN / 2, 3.9) as figure:
         for axes, (first_axis, second_axis, fixed_axis) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
             _draw_slice(axes, box, cells, (first_axis, second_axis), fixed_axis)
         add_legend(figure, {"proved": SKY})
-        return report.settle_layout(figure)
+    return figure
 
 
 def _draw_slice(

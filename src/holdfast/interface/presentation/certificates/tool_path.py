@@ -110,8 +110,7 @@ def _draw(proof: PathProof) -> report.Figure:
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
     width = report.WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS)
-    with report.style():
-        figure = report.Figure(figsize=(width, 2.7 * row_count + 0.7), layout="constrained")
+    with report.styled_figure(width, 2.7 * row_count + 0.7) as figure:
         panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
         for panel, part in zip(panels, proof.parts, strict=False):
             _draw_panel(panel, proof, part)
@@ -124,7 +123,7 @@ def _draw(proof: PathProof) -> report.Figure:
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
         add_legend(figure, {"proved to be finished": SKY, "proved with rotated cells": BLUE, "refuted": ORANGE})
-        return report.settle_layout(figure)
+    return figure
 
 
 def _draw_panel(axes: report.Axes, proof: PathProof, part: LockedPath) -> None:

@@ -96,8 +96,7 @@ def present(curve: TradeOff) -> Presentation:
 
 def _draw_figure(curve: TradeOff) -> report.Figure:
     """Draw the median and quantile bands of the error after a failure and of the error of the healthy arm."""
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 3.9))
+    with report.styled_figure(report.WIDTH_IN, 3.9) as figure:
         gain, cost = figure.subplots(1, 2)
         title_prefix = report.format_label(f"{curve.arm.name}, {curve.task.name}", 30)
         measures = zip(
@@ -114,4 +113,4 @@ def _draw_figure(curve: TradeOff) -> report.Figure:
             axes.set_title(title)
         cost.plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="allowed error")
         report.legend_below(figure, cost, 4)
-        return report.settle_layout(figure)
+    return figure

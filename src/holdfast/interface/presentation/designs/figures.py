@@ -36,8 +36,7 @@ def draw_pareto_front(
         label: Label of the axis of the quantiles.
         bound: Upper bound of the index; drawn only if it is near the values. None if not known.
     """
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 4.6))
+    with report.styled_figure(report.WIDTH_IN, 4.6) as figure:
         axes = figure.add_subplot()
         axes.scatter(reach, quantiles, s=14, color=SKY, linewidths=0, rasterized=True)
         front_rows = np.asarray(front, dtype=int)
@@ -68,7 +67,7 @@ def draw_pareto_front(
             report.Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="best design"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
-        return report.settle_layout(figure)
+    return figure
 
 
 def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> report.Figure:
@@ -96,8 +95,7 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
     # Both panels show the same part of the world.
     extents = np.concatenate([s.extent for s in scenes])
     common_scene = report.Scene(extents, np.full(len(extents), np.nan), no_points)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 5.4))
+    with report.styled_figure(report.WIDTH_IN, 5.4) as figure:
         panels: Sequence[report.Axes] = figure.subplots(1, 2)
         spans, height = report.scenes.fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
@@ -107,7 +105,7 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
             axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
             axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
             axes.set_title(report.format_label(title, 44))
-        return report.settle_layout(figure)
+    return figure
 
 
 def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> FloatArray:
@@ -136,8 +134,7 @@ def draw_parameters(
     """
     column_count = 2 if len(names) == 4 else min(3, len(names))
     row_count = -(-len(names) // column_count)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 2.5 * row_count + 0.5))
+    with report.styled_figure(report.WIDTH_IN, 2.5 * row_count + 0.5) as figure:
         panels = figure.subplots(row_count, column_count, squeeze=False, sharey=True)
         for index, axes in enumerate(panels.flat):
             if index >= len(names):
@@ -153,4 +150,4 @@ def draw_parameters(
             report.Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
-        return report.settle_layout(figure)
+    return figure

@@ -157,8 +157,7 @@ def _draw_separation(result: Observability | ProbingMotion) -> report.Figure:
     names = ["none", *(report.format_label(result.arm.joint_names[row], _MAX_NAME_LETTERS) for row in joints)]
     separations = result.separation[np.ix_(hypotheses, hypotheses)]
     count = len(hypotheses)
-    with report.style():
-        figure = report.Figure(figsize=(2.6 + 0.75 * count, 1.6 + 0.5 * count))
+    with report.styled_figure(2.6 + 0.75 * count, 1.6 + 0.5 * count) as figure:
         axes = figure.subplots()
         matrix = np.ma.masked_array(np.minimum(separations, 3 * LOG_LIKELIHOOD_THRESHOLD), np.eye(count, dtype=bool))
         mesh = axes.pcolormesh(
@@ -192,4 +191,4 @@ def _draw_separation(result: Observability | ProbingMotion) -> report.Figure:
         axes.grid(visible=False)
         axes.set(title="Separation of the hypotheses", xlim=(0, count))
         figure.colorbar(mesh, ax=axes, label="log-likelihood ratio")
-        return report.settle_layout(figure)
+    return figure

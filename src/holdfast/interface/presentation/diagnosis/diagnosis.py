@@ -130,8 +130,7 @@ def _draw_residuals(diagnosis: Diagnosis) -> report.Figure:
     """Draw a panel for each monitored level."""
     names, verdict = [name for name in _PANEL_TITLES if name in diagnosis.signals.levels], diagnosis.verdict
     joints = diagnosis.arm.joint_names
-    with report.style():
-        figure = report.Figure(figsize=(1.25 * report.WIDTH_IN, 0.6 + 1.9 * len(names)))
+    with report.styled_figure(1.25 * report.WIDTH_IN, 0.6 + 1.9 * len(names)) as figure:
         panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
         for name, axes in zip(names, panels, strict=True):
             values = getattr(diagnosis.scaled, name).reshape(len(diagnosis.log.t), -1)
@@ -161,7 +160,7 @@ def _draw_residuals(diagnosis: Diagnosis) -> report.Figure:
             if verdict.joint is not None and name != "tool":
                 axes.legend(loc="lower left", fontsize=8)
         panels[-1].set(xlabel="time, s", xlim=(diagnosis.log.t[0], diagnosis.log.t[-1]))
-        return report.settle_layout(figure)
+    return figure
 
 
 def _thin_samples(t: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -151,8 +151,7 @@ def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> report.Figu
     frames, t = examined_frames(recording, episode), episode.t[:: frame_stride(recording.fps)]
     joint = int(np.ptp(frames.reference, axis=0).argmax())
     joint = joint if alarm.joint is None else recording.joints.index(alarm.joint)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 2.8))
+    with report.styled_figure(report.WIDTH_IN, 2.8) as figure:
         axes = figure.subplots()
         for values, label, color, width in (
             (frames.reference, "reference", report.SKY, 1.0),
@@ -164,4 +163,4 @@ def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> report.Figu
         label = report.format_label(recording.joints[joint]) + (f", {recording.unit}" if recording.unit else "")
         axes.set(xlabel="time, s", ylabel=label, title=f"Episode {alarm.index}, alarm at {alarm.alarm:.2f} s")
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
-        return report.settle_layout(figure)
+    return figure

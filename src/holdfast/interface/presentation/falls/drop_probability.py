@@ -102,12 +102,11 @@ def _draw_map(result: DropProbability) -> report.Figure:
     first, second = np.argsort(-correlations, kind="stable")[:2] if arm.n > 1 else (0, 0)
     x, y, means = result.map(int(first), int(second), _MAP_BINS)
     labels = [f"{arm.joint_names[k]}, {arm.joints[k].display_unit[1]}" for k in (first, second)]
-    with report.style():
-        figure = report.Figure(figsize=(0.75 * report.WIDTH_IN, 4.4))
+    with report.styled_figure(0.75 * report.WIDTH_IN, 4.4) as figure:
         axes = figure.subplots()
         mesh = axes.pcolormesh(
             x * arm.joints[first].display_unit[0], y * arm.joints[second].display_unit[0], means.T, cmap="cividis_r"
         )
         figure.colorbar(mesh, label=f"mean {_MEASURE_NAMES[result.measure]}, {result.unit}")
         axes.set(xlabel=labels[0], ylabel=labels[1], title=f"{known.sum():,} falls")
-        return report.settle_layout(figure)
+    return figure

@@ -119,8 +119,7 @@ def _draw_strips(
     """
     column_count = min(4, len(panels))
     row_count = -(-len(panels) // column_count)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 2.2 * row_count + 1.1))
+    with report.styled_figure(report.WIDTH_IN, 2.2 * row_count + 1.1) as figure:
         axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for panel_axes in axes.ravel()[len(panels) :]:
             panel_axes.set_visible(False)
@@ -134,7 +133,7 @@ def _draw_strips(
         report.label_color_bar(
             figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015), label, scale
         )
-        return report.settle_layout(figure)
+    return figure
 
 
 def _draw_strip(

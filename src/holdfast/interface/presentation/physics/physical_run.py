@@ -127,8 +127,7 @@ def _draw_figure(run: PhysicalRun) -> report.Figure:
             log_scale=True,
         )
     )
-    with report.style():
-        figure = report.Figure(figsize=((1.6 if len(kinds) > 1 else 1.25) * report.WIDTH_IN, 4.1))
+    with report.styled_figure((1.6 if len(kinds) > 1 else 1.25) * report.WIDTH_IN, 4.1) as figure:
         path_axes, *panel_axes = figure.subplots(1, 1 + len(panels))
         for path, color, width, label in (
             (kinematic_path.x, report.SKY, 4.5, "kinematic"),
@@ -154,4 +153,4 @@ def _draw_figure(run: PhysicalRun) -> report.Figure:
         )
         report.legend_below(figure, path_axes, 4)
         figure.suptitle(report.format_label(caption, 200), fontsize=9, color=report.SOFT)
-        return report.settle_layout(figure)
+    return figure

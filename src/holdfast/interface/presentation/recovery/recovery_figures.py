@@ -65,10 +65,9 @@ def draw_motion(recovery: Recovery) -> report.Figure:
     arm_scene = replace(arm_scene, box=None)
     extent_scene = report.Scene(drawn_points, np.zeros(len(drawn_points)), points, chain=final)
     scale = report.Scale(0.0, 100.0)
-    with report.style():
-        panel_width = 4.1 if len(views) > 1 else 5.0
-        spans, height = report.scenes.fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
-        figure = report.Figure(figsize=(report.WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7))
+    panel_width = 4.1 if len(views) > 1 else 5.0
+    spans, height = report.scenes.fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
+    with report.styled_figure(report.WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7) as figure:
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
@@ -107,7 +106,7 @@ def draw_motion(recovery: Recovery) -> report.Figure:
             report.scenes.add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
         report.legend_below(figure, panels[0], 5)
         figure.suptitle(report.format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
-        return report.settle_layout(figure)
+    return figure
 
 
 def draw_timing(recovery: Recovery) -> report.Figure:

@@ -128,8 +128,7 @@ def _draw_run(run: FaultRun) -> report.Figure:
     samples = np.unique(np.linspace(0, len(run.time) - 1, _MAX_POINTS).astype(int))
     time, faulty_joints = run.time[samples], {event.joint for event in run.events}
     unit = "rad or m" if run.arm.prismatic.any() else "rad"
-    with report.style():
-        figure = report.Figure(figsize=(1.25 * report.WIDTH_IN, 6.2))
+    with report.styled_figure(1.25 * report.WIDTH_IN, 6.2) as figure:
         distance_axes, error_axes, joint_axes = figure.subplots(3, 1, sharex=True)
         distance_axes.plot(time, 1e3 * run.position_error[samples], color=report.BLUE)
         distance_axes.set(ylabel="mm", title="Distance of the tool from its target", ylim=(0, None))
@@ -151,7 +150,7 @@ def _draw_run(run: FaultRun) -> report.Figure:
         figure.suptitle(
             report.format_label(f"{run.arm.name}, {run.law.name}: {run.outcome}", 200), fontsize=9, color=report.SOFT
         )
-        return report.settle_layout(figure)
+    return figure
 
 
 def _mark_events(run: FaultRun, panels: Sequence[report.Axes]) -> None:

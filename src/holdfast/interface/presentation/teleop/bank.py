@@ -27,8 +27,7 @@ def bank_figure(
     """
     chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
     special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 6.2))
+    with report.styled_figure(report.WIDTH_IN, 6.2) as figure:
         axes = figure.add_subplot()
         _draw_bank(axes, bank, cells)
         _label_tasks(axes, bank, chosen_tasks, 1, special=False)
@@ -43,7 +42,7 @@ def bank_figure(
             title += f", task {' and '.join(missing_numbers)} among them"
         axes.set_title(title, fontweight="normal", fontsize=9.5)
         report.legend_below(figure, axes, 4)
-        return report.settle_layout(figure)
+    return figure
 
 
 def _draw_bank(axes: report.Axes, bank: TaskBank, cells: Binning) -> None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.teleop.protocol.protocol import Protocol
-from holdfast.teleop.records.records import Records
-
 if TYPE_CHECKING:
     from rich.console import Console
+
+    from holdfast.teleop.protocol.protocol import Protocol
+    from holdfast.teleop.records.records import Records
 
 
 def _make_grid(*head: str) -> Any:

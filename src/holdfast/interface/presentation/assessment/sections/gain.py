@@ -58,8 +58,7 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> report.Figure:
     """Draw the cumulative distributions before and after (left), and both values of each pose (right; Figs. 6 and 7)."""
     curves = build_gain_curves(facts, best)
     axis_values = curves[0].x
-    with report.style():
-        figure = report.Figure(figsize=(report.WIDTH_IN, 3.9))
+    with report.styled_figure(report.WIDTH_IN, 3.9) as figure:
         cdf_axes, pose_axes = figure.subplots(1, 2)
         visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
         report.draw_cdf(
@@ -87,7 +86,7 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> report.Figure:
                 pose_axes.set(yscale="log", ylim=(None, None))
             pose_axes.set_title("Each pose before (line) and after (dots)")
         report.legend_below(figure, cdf_axes)
-        return report.settle_layout(figure)
+    return figure
 
 
 def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[report.Curve]:
@@ -118,8 +117,7 @@ def draw_cdf_figure(answer: ThresholdAnswer) -> report.Figure:
     facts = AssessmentFacts.extend_answer(answer)
     optimised = facts.assessment.optimised
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
-    with report.style():
-        figure = report.Figure(figsize=(7.2, 4.8))
+    with report.styled_figure(7.2, 4.8) as figure:
         axes = figure.subplots()
         visible_marks = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]]
         report.draw_cdf(
@@ -136,4 +134,4 @@ def draw_cdf_figure(answer: ThresholdAnswer) -> report.Figure:
             f"{facts.noun}s{unreached_text}"
         )
         report.legend_below(figure, axes, 1)
-        return report.settle_layout(figure)
+    return figure
