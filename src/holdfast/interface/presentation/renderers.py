@@ -8,16 +8,18 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
 from holdfast.core.errors import InputError
 from holdfast.core.extras import MissingModuleError
 from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
+from holdfast.core.provenance import versions
 from holdfast.core.result import Presentable, Result
 from holdfast.interface import report
 from holdfast.interface.presentation import call_presenter, find_presenter
 from holdfast.interface.presentation.notebook import embed_figure, format_table, show_once
-from holdfast.interface.presentation.page_content import build_method_blocks
 from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 from holdfast.interface.presentation.printing import TextTable, print_table, to_json_types
 from holdfast.interface.report import page
@@ -234,3 +236,24 @@ def write_rrd(result: Result, path: Path) -> Path:
 def write_json(result: Result, path: Path) -> None:
     """Write the numbers of the result as JSON."""
     replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")
+
+
+if TYPE_CHECKING:
+    from holdfast.model.arm.model import Arm
+
+
+def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any]) -> list[Any]:
+    """Build the method section of a page from the given rows, the provenance of the arm, and the package versions."""
+    table_rows = list(rows)
+    if arm is not None:
+        fingerprint = Markup("<code>{}</code>").format(arm.fingerprint)
+        table_rows += [
+            ("Arm", arm.provenance),
+            ("Fingerprint of the arm", fingerprint),
+        ]
+    return [Table([*table_rows, ("Versions", format_versions(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
+
+
+def format_versions(versions: Mapping[str, Any]) -> str:
+    """Format the versions of packages as one line."""
+    return ", ".join(f"{name} {version}" for name, version in versions.items())

@@ -23,6 +23,7 @@ from holdfast.interface.report.figures import settle_layout as settle_layout
 from holdfast.interface.report.figures import style as style
 from holdfast.interface.report.figures import styled_figure as styled_figure
 from holdfast.interface.report.figures import svg as svg
+from holdfast.interface.report.manifolds import JointPanel as JointPanel
 from holdfast.interface.report.maps import map_figure as map_figure
 from holdfast.interface.report.maps import share_figure as share_figure
 from holdfast.interface.report.outcomes import Gains as Gains

@@ -296,26 +296,13 @@ def fit_view_spans(
 
 
 def _legend_entry(kind: str, text: str) -> Any:
+    node_style = {"color": INK, "markerfacecolor": "white", "markeredgewidth": 1.4, "markersize": 6, "linewidth": 2.8}
     entry_styles: dict[str, dict[str, Any]] = {
         "dot": {"marker": "o", "color": "#21918c", "linestyle": "", "markersize": 5},
         "cross": {"marker": "x", "color": "#9aa1a8", "linestyle": "", "markersize": 5},
         "box": {"color": SOFT, "linewidth": 0.9, "linestyle": (0, (4, 2))},
-        "joint": {
-            "marker": "o",
-            "color": INK,
-            "markerfacecolor": "white",
-            "markeredgewidth": 1.4,
-            "markersize": 6,
-            "linewidth": 2.8,
-        },
-        "slide": {
-            "marker": "s",
-            "color": INK,
-            "markerfacecolor": "white",
-            "markeredgewidth": 1.4,
-            "markersize": 6,
-            "linewidth": 2.8,
-        },
+        "joint": {"marker": "o", **node_style},
+        "slide": {"marker": "s", **node_style},
         "tool": {"marker": "D", "color": ORANGE, "linestyle": "", "markeredgecolor": "white", "markersize": 6.5},
         "base": {"marker": "s", "color": INK, "linestyle": "", "markersize": 7.5},
     }

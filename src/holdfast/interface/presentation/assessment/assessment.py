@@ -20,15 +20,14 @@ from holdfast.core.formatting import (
 )
 from holdfast.core.probability.distribution import Distribution
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.presentation.assessment.explanations import explain_index
-from holdfast.interface.presentation.assessment.method import list_method
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.method import explain_index, list_method
 from holdfast.interface.presentation.assessment.page import build_sections, draw_overview
 from holdfast.interface.presentation.assessment.sections.gain import draw_cdf_figure
 from holdfast.interface.presentation.assessment.tables import build_tables, rank_optimised_upgrades
 from holdfast.interface.presentation.collision.shape import describe_cell, summarize_shape
 from holdfast.interface.presentation.commands import build_rerun_blocks
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model.failure_modes import failure_sets
 from holdfast.studies.assessment.assessment import ZERO_INDEX, Assessment
 
@@ -54,7 +53,7 @@ def present(
         report: Unused; the command prints the path of the report with the other written files.
     """
     del report
-    answer = ThresholdAnswer(assessment, thresholds[0] if threshold is None and thresholds else threshold)
+    answer = AssessmentFacts(assessment, thresholds[0] if threshold is None and thresholds else threshold)
     distribution, index = answer.distribution, answer.index
     notices = []
     if not assessment.complete:
@@ -216,46 +215,43 @@ def collect_numbers(
     """Collect all numbers of an assessment as JSON data, without the path of its report."""
     distribution = result.distribution
     reached = distribution.reached > 0
-    data: dict[str, Any] = to_json_types(
-        {
-            **result.arm.entry(),
-            "fingerprint": result.arm.fingerprint,
-            "index": result.index.label,
-            "unit": result.index.unit,
-            "better": result.index.better,
-            "bound": result.index.bound,
-            "bound_note": result.index.bound_note,
-            "best_known": result.index.best_known,
-            "task": result.index.task.name,
-            "characteristic_length_m": result.index.task.length,
-            "region": result.region.to_dict(),
-            "poses": result.poses,
-            "seed": result.seed,
-            "sampling": result.sampling,
-            "restarts": result.restarts,
-            "complete": result.complete,
-            "evaluated": distribution.samples,
-            "reached": distribution.reached,
-            "not_found": distribution.unreached,
-            "singular": distribution.singular,
-            "effective_sample_size": distribution.effective() if distribution.has_weights and distribution.samples else None,
-            "mean": distribution.mean if reached else None,
-            "quantiles": _collect_quantiles(distribution) if reached else None,
-            "band_95": distribution.band() if distribution.samples else None,
-            "probability": [_collect_probability(result, threshold) for threshold in _choose_thresholds(result, thresholds)]
-            if distribution.samples
-            else [],
-            "gap": result.gap(),
-            "worst_counts": dict(zip(result.index.failure_names, result.worst_counts.tolist(), strict=True)),
-            "upgrades": _collect_upgrades(result, thresholds),
-            "optimised": _collect_optimised_numbers(result, thresholds),
-            "clearance": _collect_collision_numbers(result),
-            "after_lock": _collect_survival(result),
-            "expected_survival": result.expected_survival(rates) if rates and distribution.samples else None,
-            "seconds": result.seconds,
-        }
-    )
-    return data
+    return {
+        **result.arm.entry(),
+        "fingerprint": result.arm.fingerprint,
+        "index": result.index.label,
+        "unit": result.index.unit,
+        "better": result.index.better,
+        "bound": result.index.bound,
+        "bound_note": result.index.bound_note,
+        "best_known": result.index.best_known,
+        "task": result.index.task.name,
+        "characteristic_length_m": result.index.task.length,
+        "region": result.region.to_dict(),
+        "poses": result.poses,
+        "seed": result.seed,
+        "sampling": result.sampling,
+        "restarts": result.restarts,
+        "complete": result.complete,
+        "evaluated": distribution.samples,
+        "reached": distribution.reached,
+        "not_found": distribution.unreached,
+        "singular": distribution.singular,
+        "effective_sample_size": distribution.effective() if distribution.has_weights and distribution.samples else None,
+        "mean": distribution.mean if reached else None,
+        "quantiles": _collect_quantiles(distribution) if reached else None,
+        "band_95": distribution.band() if distribution.samples else None,
+        "probability": [_collect_probability(result, threshold) for threshold in _choose_thresholds(result, thresholds)]
+        if distribution.samples
+        else [],
+        "gap": result.gap(),
+        "worst_counts": dict(zip(result.index.failure_names, result.worst_counts.tolist(), strict=True)),
+        "upgrades": _collect_upgrades(result, thresholds),
+        "optimised": _collect_optimised_numbers(result, thresholds),
+        "clearance": _collect_collision_numbers(result),
+        "after_lock": _collect_survival(result),
+        "expected_survival": result.expected_survival(rates) if rates and distribution.samples else None,
+        "seconds": result.seconds,
+    }
 
 
 def _collect_quantiles(distribution: Distribution) -> dict[str, float]:

@@ -21,7 +21,6 @@ from holdfast.interface.presentation.assessment.tables import (
 from holdfast.interface.presentation.collision.shape import describe_cell
 from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.interface.report.page import Block, Code, Text
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.tool import format_tool_pose
@@ -36,23 +35,20 @@ def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path 
     optimised = all(assessment.optimised is not None for assessment in comparison.assessments)
     candidates = zip(comparison.names, comparison.tools, comparison.assessments, strict=True)
     threshold_values = thresholds or [comparison.threshold]
-    data: dict[str, Any] = to_json_types(
-        {
-            "candidates": [
-                {"name": name, "tool": tool, **collect_numbers(assessment, threshold_values)}
-                for name, tool, assessment in candidates
-            ],
-            "comparison": {
-                "threshold": comparison.threshold,
-                "table": comparison.table,
-                "ranking": comparison.ranking(),
-                "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
-                "notes": comparison.notes,
-                "report": None if report is None else str(report),
-            },
-        }
-    )
-    return data
+    return {
+        "candidates": [
+            {"name": name, "tool": tool, **collect_numbers(assessment, threshold_values)}
+            for name, tool, assessment in candidates
+        ],
+        "comparison": {
+            "threshold": comparison.threshold,
+            "table": comparison.table,
+            "ranking": comparison.ranking(),
+            "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
+            "notes": comparison.notes,
+            "report": None if report is None else str(report),
+        },
+    }
 
 
 def present(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> Presentation:

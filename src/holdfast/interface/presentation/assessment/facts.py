@@ -20,11 +20,6 @@ _MAX_AXIS_RATIO = 4.0  # times the largest value; a bound farther away would fla
 class AssessmentFacts(ThresholdAnswer):
     """Contents of the figures of an assessment, each computed once."""
 
-    @classmethod
-    def extend_answer(cls, answer: ThresholdAnswer) -> AssessmentFacts:
-        """Return the contents for an answer."""
-        return cls(answer.assessment, answer.threshold if answer.is_chosen else None)
-
     @property
     def has_finite_values(self) -> bool:
         """True if some reached pose has a finite index."""

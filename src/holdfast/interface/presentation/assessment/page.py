@@ -8,7 +8,6 @@ import numpy as np
 
 from holdfast.core.formatting import format_interval, format_percent, list_alternatives
 from holdfast.interface import report
-from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.sections import gain
 from holdfast.interface.report.page import Callout, Section
@@ -30,9 +29,8 @@ SECTION_TITLES = {
 }
 
 
-def build_sections(answer: ThresholdAnswer) -> list[Section]:
+def build_sections(facts: AssessmentFacts) -> list[Section]:
     """Build the sections of the report."""
-    facts = AssessmentFacts.extend_answer(answer)
     return [
         Section("", [_describe_single_points(facts)]),
         *[
@@ -78,9 +76,8 @@ def _describe_single_points(facts: AssessmentFacts) -> Callout:
     return Callout(text, "good")
 
 
-def draw_overview(answer: ThresholdAnswer) -> report.Figure:
+def draw_overview(facts: AssessmentFacts) -> report.Figure:
     """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
-    facts = AssessmentFacts.extend_answer(answer)
     view = facts.main_view
     with report.styled_figure(12, 5.2) as figure:
         scene_axes, cdf_axes = figure.subplots(1, 2, width_ratios=[1.08, 1])

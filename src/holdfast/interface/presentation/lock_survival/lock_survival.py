@@ -10,11 +10,11 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count, format_number, format_percent
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.arm.view import scene
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.lock_survival.figures import draw_jump, draw_map, draw_survival
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.renderers import write_json
-from holdfast.interface.report.page import Picture, Section
+from holdfast.interface.report.page import Section
 from holdfast.response.lock_survival.injection import LockTests
 from holdfast.response.lock_survival.planning import LockSurvival
 
@@ -264,9 +264,12 @@ def _format_largest(values: FloatArray, time: FloatArray) -> str:
 
 def _build_sections(survival: LockSurvival) -> Sequence[Section]:
     """Animate the arm along its path."""
-    view = scene(
+    section = build_view_section(
+        "The motion",
         survival.arm,
         survival.q,
+        "The arm on its path (orange).",
+        label=f"{survival.arm.name} moving along its path",
         time=np.linspace(0.0, survival.time[-1], len(survival.time)),
         path=survival.poses[:, :3, 3],
         readings=[
@@ -275,5 +278,4 @@ def _build_sections(survival: LockSurvival) -> Sequence[Section]:
         ],
         cell=None if survival.kept is None else survival.kept[0].cell,
     )
-    description = f"{survival.arm.name} moving along its path"
-    return [Section("The motion", [Picture(view.to_html("motion", description), "The arm on its path (orange).")])]
+    return [section]

@@ -20,7 +20,6 @@ from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
@@ -68,7 +67,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
             },
         }
 
-    data = {
+    return {
         **optima.arm.entry(),
         "objective": asked or _describe_objective(optima),
         "better": optima.objective.better,
@@ -81,8 +80,6 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
         "cap": None if optima.cap is None else asdict(optima.cap) | {"remaining": _format_remaining_failures(optima)},
         "poses": [build_row(k) for k in range(len(optima_rows.poses))],
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def present(optima: Optima, asked: str = "") -> Presentation:

@@ -228,7 +228,7 @@ def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[f
     lower, upper = sampling_limits(arm)
     factors = np.array([joint.display_unit[0] for joint in arm.joints])
     panels = [
-        report.manifolds.JointPanel(
+        report.JointPanel(
             f"{joint.name}, {joint.display_unit[1]}",
             [(factor * begin, factor * finish) for begin, finish in joint_arcs],
             (factor * lower_limit, factor * upper_limit),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from holdfast.core.errors import StoreError
 from holdfast.core.formatting import format_count, format_duration, list_alternatives
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
+from holdfast.core.sweeps.study_merge import MergeReport
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
@@ -55,7 +57,12 @@ def to_dict(study: Study) -> dict[str, Any]:
     }
 
 
-def present(study: Study) -> Presentation:
+def present(result: Study | MergeReport) -> Presentation:
+    """Present the progress of a study, or the chunks that a merge of its folders added."""
+    return _present_merge(result) if isinstance(result, MergeReport) else _present_progress(result)
+
+
+def _present_progress(study: Study) -> Presentation:
     """Present the progress of a study; if there are many cells, the table lists only those that are not complete."""
     cells = study.status()
     done, total = sum(cell.chunks_done for cell in cells), sum(cell.chunks for cell in cells)
@@ -76,6 +83,27 @@ def present(study: Study) -> Presentation:
     title = f"{_MAX_TABLE_CELLS} of {len(listed_cells)} cells that are not complete" if is_cut else ""
     answer = f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {state}, {spent} of processor time"
     return Presentation(study.name, answer, tables=[TableSpec(title, columns, rows)])
+
+
+def _present_merge(merge: MergeReport) -> Presentation:
+    """Present the added and the existing chunks, the machines, and the progress of the study."""
+    lines = []
+    if merge.close:
+        lines.append(f"{merge.close} chunks already existed and agree to 1e-12.")
+    if merge.apart:
+        cell, chunk = merge.apart[0]
+        lines.append(
+            f"{len(merge.apart)} chunks already existed with different values (first: chunk {chunk + 1} of '{cell}'); those of "
+            f"'{merge.study.path}' were not replaced."
+        )
+    for maker in merge.study.makers:
+        packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+        lines.append(f"Computed on {maker['processor']}: Python {maker['python']}, {packages}.")
+    if len(merge.study.makers) > 1:
+        lines.append("Versions or processors differ: values agree with those of a single machine to 1e-12, not bit for bit.")
+    progress = _present_progress(merge.study)
+    answer = f"{merge.study.path}: {merge.added} chunks added; {merge.both} already existed and are identical bit for bit"
+    return replace(progress, answer=answer, lines=[*lines, progress.answer])
 
 
 @reports_progress("drawing the report")

@@ -10,11 +10,11 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface import report
-from holdfast.interface.presentation.arm.view import scene
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.contacts import list_contacts
 from holdfast.interface.presentation.collision.shape import describe_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.report.page import Picture, Section
+from holdfast.interface.report.page import Section
 from holdfast.response.supervisor.run import OUTCOME_PHRASES, FaultRun
 
 _RESPONSE_PHRASES = {
@@ -110,17 +110,18 @@ def _build_sections(run: FaultRun) -> Sequence[Section]:
     brake_times = {
         action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
     }
-    caption = "Measured motion of the arm; a braked joint is marked from the time of its brake."
-    motion_scene = scene(
+    section = build_view_section(
+        "The motion",
         run.arm,
         run.q[frame_indices],
+        "Measured motion of the arm; a braked joint is marked from the time of its brake.",
         time=run.time[frame_indices],
         readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
         locked=brake_times,
         targets=[run.target if run.law.task.angular else run.target[:3, 3]],
         cell=None if run.clearance is None else run.clearance.cell,
     )
-    return [Section("The motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
+    return [section]
 
 
 def _draw_run(run: FaultRun) -> report.Figure:

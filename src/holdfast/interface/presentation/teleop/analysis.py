@@ -14,7 +14,6 @@ from holdfast.core.formatting import format_number
 from holdfast.interface import report
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.presentation import FigureSpec, Notice, Presentation
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.interface.presentation.teleop.report_tables import build_tables, format_p_relation
 from holdfast.interface.presentation.teleop.tables import write_tables
 from holdfast.interface.report.page import Section
@@ -25,15 +24,13 @@ from holdfast.teleop.protocol.protocol import Protocol
 
 def to_dict(analysis: Analysis) -> dict[str, Any]:
     """Return the subjects, and the rows of every table, as JSON data."""
-    data = {
+    return {
         "subjects": list(analysis.observed.subjects),
         "simulated": analysis.is_simulated,
         "left_out": analysis.left_out,
         "notes": analysis.notes,
         "tables": {name: table.to_dict("records") for name, table in analysis.tables.items()},
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def write(

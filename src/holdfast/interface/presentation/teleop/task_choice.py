@@ -14,7 +14,6 @@ from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.formatting import format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.interface.presentation.teleop.bank import bank_figure
 from holdfast.model import arms
 from holdfast.teleop.bank.selection import TaskChoice
@@ -25,7 +24,7 @@ from holdfast.teleop.records.tables import bank_table
 
 def to_dict(choice: TaskChoice) -> dict[str, Any]:
     """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario, as JSON data."""
-    data = {
+    return {
         **choice.arm.entry(),
         "tasks": len(choice.bank),
         "cells_occupied": len(choice.cells.occupied_cells),
@@ -34,8 +33,6 @@ def to_dict(choice: TaskChoice) -> dict[str, Any]:
         "trapped": None if choice.trapped is None else choice.trapped + 1,
         "scenarios": _summarize_scenarios(choice.bank),
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def _summarize_scenarios(bank: TaskBank) -> list[dict[str, Any]]:

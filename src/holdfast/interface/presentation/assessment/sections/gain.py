@@ -7,7 +7,6 @@ import numpy as np
 from holdfast.core.formatting import format_count, format_half_width
 from holdfast.core.probability.distribution import Distribution
 from holdfast.interface import report
-from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.page import Block, Picture, Text
 
@@ -112,9 +111,8 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[report
     ]
 
 
-def draw_cdf_figure(answer: ThresholdAnswer) -> report.Figure:
+def draw_cdf_figure(facts: AssessmentFacts) -> report.Figure:
     """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
-    facts = AssessmentFacts.extend_answer(answer)
     optimised = facts.assessment.optimised
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
     with report.styled_figure(7.2, 4.8) as figure:
