@@ -28,6 +28,8 @@ from holdfast.interface.report.page import Block, Callout, Page, Picture, Sectio
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from holdfast.model.arm.model import Arm
+
 _MAX_NARROW_COLUMNS = 5  # columns
 _HARD_SPACE = "\N{NO-BREAK SPACE}"
 _TONE_COLORS = {"bad": "red", "warn": "yellow", "good": "green", "note": "default"}
@@ -215,11 +217,7 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     """Write the figures as PNG files, the exported files, and the report into a folder; return all written paths."""
     folder, presentation = make_folder(folder), present(result, **options)
     drawn = {name: figure.draw() for name, figure in presentation.figures.items() if figure.saved}
-    files = []
-    if drawn:
-        from holdfast.interface.report.figures import save_png
-
-        files = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
+    files = [report.save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
     for name, write_file in presentation.exports.items():
         write_file(folder / name)
         files.append(folder / name)
@@ -238,20 +236,12 @@ def write_json(result: Result, path: Path) -> None:
     replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")
 
 
-if TYPE_CHECKING:
-    from holdfast.model.arm.model import Arm
-
-
 def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any]) -> list[Any]:
     """Build the method section of a page from the given rows, the provenance of the arm, and the package versions."""
-    table_rows = list(rows)
     if arm is not None:
         fingerprint = Markup("<code>{}</code>").format(arm.fingerprint)
-        table_rows += [
-            ("Arm", arm.provenance),
-            ("Fingerprint of the arm", fingerprint),
-        ]
-    return [Table([*table_rows, ("Versions", format_versions(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
+        rows = (*rows, ("Arm", arm.provenance), ("Fingerprint of the arm", fingerprint))
+    return [Table([*rows, ("Versions", format_versions(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
 
 
 def format_versions(versions: Mapping[str, Any]) -> str:

@@ -30,16 +30,11 @@ from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import format_percent, shorten_to_one_line
 from holdfast.core.progress import count_finished_part
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.palette import AMBER as AMBER
-from holdfast.interface.report.palette import BLUE as BLUE
-from holdfast.interface.report.palette import EMPTY_COLOR as EMPTY_COLOR
-from holdfast.interface.report.palette import FAINT as FAINT
+from holdfast.interface.report.palette import AMBER, BLUE, LIGHT_BLUE, SKY
 from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
-from holdfast.interface.report.palette import LIGHT_BLUE as LIGHT_BLUE
 from holdfast.interface.report.palette import ORANGE as ORANGE
 from holdfast.interface.report.palette import PURPLE as PURPLE
-from holdfast.interface.report.palette import SKY as SKY
 from holdfast.interface.report.palette import SOFT as SOFT
 
 # Up to 28 curves differ pairwise in colour, line style, or both.

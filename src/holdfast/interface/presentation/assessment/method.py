@@ -8,7 +8,7 @@ from holdfast.core import labels
 from holdfast.core.formatting import format_as_given
 from holdfast.core.registry import INDEX_REGISTRY
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.presentation.page_content import format_versions
+from holdfast.interface.presentation.renderers import format_versions
 from holdfast.kinematics.indices.index import Index
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.rows import describe_provenance

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache, partial
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +29,6 @@ from holdfast.interface.presentation.certificates.verification import (
 )
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, FAINT, INK, ORANGE, SKY
-
-if TYPE_CHECKING:
-    from fractions import Fraction
 
 Found = Refutation | ManipulabilityBound
 

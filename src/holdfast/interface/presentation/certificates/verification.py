@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from markupsafe import Markup
 
@@ -20,9 +21,6 @@ from holdfast.interface import report
 from holdfast.interface.presentation.certificates import working_ranges
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.palette import EMPTY_COLOR, INK
-
-if TYPE_CHECKING:
-    from fractions import Fraction
 
 SCOPE_NOTE = "collisions, torques, speed. Assumptions: links are rigid, the geometry is that of the file, locks do not slip"
 UNVERIFIED_NOTE = "The prover found this proof; it is not yet verified."
@@ -148,9 +146,7 @@ def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence
     checks = [None] * len(parts) if check is None else check.parts or (check,)
     columns = [
         Header("lock", "lock of"),
-        Header("proved", "proved"),
-        Header("refuted", "refuted"),
-        Header("undecided", "undecided"),
+        *(Header(name, name) for name in ("proved", "refuted", "undecided")),
         *[Header("gaps", "undecided between knots")] * bool(gaps),
         Header("cells", "cells"),
         Header("search", "search, s", digits=3),

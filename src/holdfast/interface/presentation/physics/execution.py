@@ -16,6 +16,7 @@ from holdfast.interface.presentation.collision.contacts import list_contacts, ta
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
 from holdfast.interface.report.page import Section
 
+SERVO_QUANTITIES = ("tracking_error", "saturated_fraction", "stiffness", "damping")  # of each joint
 _MAX_VIEW_FRAMES = 201
 _OUTCOME_PHRASES = {
     "finished": "finished its motion",
@@ -50,10 +51,7 @@ def to_dict(run: Execution) -> dict[str, Any]:
         "following_error": dict(zip(names, run.following_error.max(axis=0), strict=True)),
         "tool_error_m": {"most": run.tool_error[0].max(), "end": run.tool_error[0][-1]},
         "tool_error_rad": {"most": run.tool_error[1].max(), "end": run.tool_error[1][-1]},
-        "tracking_error": dict(zip(names, run.tracking_error, strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated_fraction, strict=True)),
-        "stiffness": dict(zip(names, run.stiffness, strict=True)),
-        "damping": dict(zip(names, run.damping, strict=True)),
+        **{name: dict(zip(names, getattr(run, name), strict=True)) for name in SERVO_QUANTITIES},
         "control_rate_hz": run.servos.rate,
     } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
 

@@ -14,6 +14,7 @@ from holdfast.control.simulation.errors import error_history, error_kinds
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
+from holdfast.interface.presentation.physics.execution import SERVO_QUANTITIES
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.simulation import runs as simulation
 from holdfast.interface.presentation.simulation.errors import format_errors
@@ -34,10 +35,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "path_distance_m": run.path_distance,
         "terminal_distance_m": run.terminal_distance,
         "terminal_turn_rad": run.terminal_turn,
-        "tracking_error": dict(zip(names, run.tracking_error.tolist(), strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated_fraction.tolist(), strict=True)),
-        "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
-        "damping": dict(zip(names, run.damping.tolist(), strict=True)),
+        **{name: dict(zip(names, getattr(run, name), strict=True)) for name in SERVO_QUANTITIES},
         "control_rate_hz": run.servos.rate,
     } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
     return run.kinematic.to_dict() | {"physics": physics}

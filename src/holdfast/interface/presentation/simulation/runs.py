@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +17,6 @@ from holdfast.interface.presentation.presentation import Fact, FigureSpec, Heade
 from holdfast.interface.presentation.simulation.errors import REACHED_ERROR, format_errors, list_error_facts, list_errors
 from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 from holdfast.kinematics.paths.joint_table import joint_columns
-
-if TYPE_CHECKING:
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 
 
 def to_dict(runs: Runs) -> dict[str, Any]:

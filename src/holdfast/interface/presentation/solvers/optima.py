@@ -250,15 +250,8 @@ def to_csv(optima: Optima, path: Path) -> Path:
     optima_rows = optima.rows
     names = [f"{joint.name}_{joint.unit}" for joint in optima_rows.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
-    facts = (
-        optima_rows.value_before,
-        optima_rows.value,
-        optima_rows.starts,
-        optima_rows.agreeing,
-        optima_rows.position_error,
-        optima_rows.rotation_error,
-    )
-    rows = np.column_stack([*facts, optima_rows.q])
+    facts = ("value_before", "value", "starts", "agreeing", "position_error", "rotation_error")
+    rows = np.column_stack([*(getattr(optima_rows, name) for name in facts), optima_rows.q])
     with open_replacement(path, "configurations") as file:
         table = csv.writer(file)
         table.writerow(map(escape_formula, columns + names))

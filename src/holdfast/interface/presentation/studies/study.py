@@ -44,14 +44,7 @@ def to_dict(study: Study) -> dict[str, Any]:
         "chunks_done": sum(cell.chunks_done for cell in cells),
         "thread_seconds": sum(cell.seconds for cell in cells),
         "cells": [
-            {
-                "name": cell.name,
-                "chunks": cell.chunks,
-                "chunks_done": cell.chunks_done,
-                "rows": cell.rows,
-                "rows_done": cell.rows_done,
-            }
-            for cell in cells
+            {key: getattr(cell, key) for key in ("name", "chunks", "chunks_done", "rows", "rows_done")} for cell in cells
         ],
         "made_by": study.makers,
     }
