@@ -15,9 +15,9 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape
+from holdfast.interface.presentation.path_following.trajectory_figures import draw_joint_positions
 from holdfast.interface.presentation.simulation.errors import format_errors
 from holdfast.interface.report.page import Block, Picture, Section, Text
-from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples
 from holdfast.model.collision.contacts import Contact
 
 REPEATED_SPAN_GAINS = 200.0  # 1/Ke: duration that is drawn of a motion that repeats itself
@@ -220,22 +220,9 @@ class RunDrawing:
         return Picture(report.svg(figure, "error", "Error of the end effector over time"), caption)
 
     def _draw_joints(self) -> Picture:
-        panels = []
-        for index, joint in enumerate(self.arm.joints):
-            scale, unit = joint.display_unit
-            values = scale * self.drawn_path.q[:, index]
-            lines = [TimelineLine(values, "position", "first")]
-            margin = float(np.ptp(values)) + 0.1 * (1.0 if joint.prismatic else 100.0)
-            for limit in (joint.lower, joint.upper):
-                # A limit far away would only flatten the curve.
-                if np.isfinite(limit) and np.abs(values - scale * limit).min() < margin:
-                    lines.append(TimelineLine(np.full(len(values), scale * limit), "limit", "compared"))
-            locked = " (locks)" if np.isfinite(self.lock_time[index]) else ""
-            panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
-        image = draw_small_multiples(self.drawn_path.time, panels, "Joint positions over time", self._time_label)
-        return Picture(
-            image, f"Joint positions. Dashed lines are joint limits, where one is near. {self.omission_note}".strip()
-        )
+        path, locks = self.drawn_path, np.isfinite(self.lock_time)
+        titles = [f"{name}{' (locks)' * bool(lock)}" for name, lock in zip(self.arm.joint_names, locks, strict=True)]
+        return draw_joint_positions(self.arm, path.time, path.q, titles, self._time_label, self.omission_note)
 
     def _report_contacts(self) -> list[Block]:
         """Draw the smallest distance of the arm from itself and from the objects of its cell."""

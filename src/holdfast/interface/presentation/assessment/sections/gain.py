@@ -56,18 +56,9 @@ def _describe_blocked_poses(facts: AssessmentFacts) -> str:
 def draw_gain(facts: AssessmentFacts, best: Distribution) -> report.Figure:
     """Draw the cumulative distributions before and after (left), and both values of each pose (right; Figs. 6 and 7)."""
     curves = build_gain_curves(facts, best)
-    axis_values = curves[0].x
     with report.styled_figure(report.WIDTH_IN, 3.9) as figure:
         cdf_axes, pose_axes = figure.subplots(1, 2)
-        visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
-        report.draw_cdf(
-            cdf_axes,
-            curves,
-            visible_marks,
-            xlabel=facts.axis_label,
-            ylabel="fraction with a smaller value, F",
-            log=facts.is_logarithmic,
-        )
+        _draw_cdf(cdf_axes, facts, curves)
         cdf_axes.set_title(f"Cumulative (CDF), {facts.distribution.samples:,} poses")
         poses = facts.poses
         if poses is None:
@@ -86,6 +77,12 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> report.Figure:
             pose_axes.set_title("Each pose before (line) and after (dots)")
         report.legend_below(figure, cdf_axes)
     return figure
+
+
+def _draw_cdf(axes: report.Axes, facts: AssessmentFacts, curves: list[report.Curve]) -> None:
+    """Draw cumulative distributions with the marks that are not beyond the end of their axis."""
+    marks, label = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]], "fraction with a smaller value, F"
+    report.draw_cdf(axes, curves, marks, xlabel=facts.axis_label, ylabel=label, log=facts.is_logarithmic)
 
 
 def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[report.Curve]:
@@ -117,15 +114,7 @@ def draw_cdf_figure(facts: AssessmentFacts) -> report.Figure:
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
     with report.styled_figure(7.2, 4.8) as figure:
         axes = figure.subplots()
-        visible_marks = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]]
-        report.draw_cdf(
-            axes,
-            curves,
-            visible_marks,
-            xlabel=facts.axis_label,
-            ylabel="fraction with a smaller value, F",
-            log=facts.is_logarithmic,
-        )
+        _draw_cdf(axes, facts, curves)
         unreached_text = f", {facts.distribution.unreached:,} of them not reached" if facts.distribution.unreached else ""
         axes.set_title(
             f"{report.format_label(facts.assessment.arm.name, 30)}: {facts.distribution.samples:,} "
