@@ -219,11 +219,13 @@ def collect_numbers(
         **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
         "index": result.index.label,
-        **{key: getattr(result.index, key) for key in ("unit", "better", "bound", "bound_note", "best_known")},
+        **{
+            attribute: getattr(result.index, attribute) for attribute in ("unit", "better", "bound", "bound_note", "best_known")
+        },
         "task": result.index.task.name,
         "characteristic_length_m": result.index.task.length,
         "region": result.region.to_dict(),
-        **{key: getattr(result, key) for key in ("poses", "seed", "sampling", "restarts", "complete")},
+        **{attribute: getattr(result, attribute) for attribute in ("poses", "seed", "sampling", "restarts", "complete")},
         "evaluated": distribution.samples,
         "reached": distribution.reached,
         "not_found": distribution.unreached,

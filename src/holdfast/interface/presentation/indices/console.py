@@ -41,7 +41,7 @@ def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
         "index": index.label,
         "task": index.task.name,
         "characteristic_length_m": index.task.length,
-        **{key: getattr(index, key) for key in ("unit", "better", "bound", "bound_note", "best_known")},
+        **{attribute: getattr(index, attribute) for attribute in ("unit", "better", "bound", "bound_note", "best_known")},
         "attained": index.is_attained,
         "source": index.source,
         "q": dict(zip(names, q.tolist(), strict=True)),

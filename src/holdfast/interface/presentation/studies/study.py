@@ -44,7 +44,8 @@ def to_dict(study: Study) -> dict[str, Any]:
         "chunks_done": sum(cell.chunks_done for cell in cells),
         "thread_seconds": sum(cell.seconds for cell in cells),
         "cells": [
-            {key: getattr(cell, key) for key in ("name", "chunks", "chunks_done", "rows", "rows_done")} for cell in cells
+            {attribute: getattr(cell, attribute) for attribute in ("name", "chunks", "chunks_done", "rows", "rows_done")}
+            for cell in cells
         ],
         "made_by": study.makers,
     }
