@@ -124,7 +124,7 @@ def test_sliders_move_single_joints_and_locked_ones_are_disabled(opened):
 def test_an_arm_with_more_redundancy_has_directions_of_self_motion(opened):
     arm, page = arms.load("pa10-9dof"), opened("pa10-9dof")
     page.locator('[data-step="prepare"]').click()
-    menu, slider = page.get_by_role("combobox", name="Direction"), page.get_by_label("Configuration along the self-motion")
+    menu, slider = page.get_by_role("combobox", name="Direction"), page.get_by_label("Configurations of this tool pose")
     assert menu.locator("option").count() == 1 + 3
     first, ways = configuration(page), []
     for direction in range(1, 4):

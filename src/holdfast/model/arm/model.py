@@ -248,7 +248,7 @@ class Arm(Presentable, ArmData):
             file: HTML file to write; None: do not write.
             q: (n,) first configuration, rad and m. Default: a configuration that its self-motion improves most.
             options: ``locked``, ``laws``, ``target``, ``task``, ``cell``, ``beside``, or ``plain``, as in
-                :func:`holdfast.interface.presentation.arm_page.build.build_page`, which states the errors.
+                ``build_page`` of ``holdfast.interface.presentation.arm_page.build``, which states the errors.
         """
         return self._present("build_page", q, file=file, **options)  # type: ignore[no-any-return]
 
