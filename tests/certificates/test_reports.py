@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.interface.presentation.certificates.joint_boxes_figures import LeafBoxes
+from holdfast.interface.presentation.certificates.joint_boxes import LeafBoxes
 
 
 def halved(rng, axes, most):

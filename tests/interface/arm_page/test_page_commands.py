@@ -57,7 +57,8 @@ def copied(shown, cli, capsys, monkeypatch):
             "brakeDelay": BRAKE_DELAY_MS,
         }
         row = [data, state, int(fractions.argmin()), data["story"]["target"]]
-        (lines,) = page.call("(page, arm, row) => page.reproduce(...row)", [row])
+        (codes,) = page.call("(page, arm, row) => page.reproduce(...row)", [row])
+        lines = {code["kind"]: code["text"] for code in codes}
         outputs = []
         for line in lines["shell"].splitlines():
             code, out, err = cli(*shlex.split(line)[1:])

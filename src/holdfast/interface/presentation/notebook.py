@@ -9,12 +9,10 @@ import base64
 import io
 from functools import partial
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from holdfast.interface import report
 from holdfast.interface.presentation.printing import TextTable
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MAX_TABLE_ROWS = 12
 _PIXEL_DENSITY = 1.5  # image pixels per screen pixel
@@ -42,21 +40,19 @@ def _escape_cell(text: str) -> str:
     return escape(text).replace("\n", "<br>")
 
 
-def embed_figure(figure: Figure, about: str) -> str:
+def embed_figure(figure: report.Figure, about: str) -> str:
     """Return the figure as an ``<img>`` at most as wide as its cell; ``about`` is the text alternative."""
     data, size = render_png(figure)
     style_text = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
     return f'<img style="{style_text}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
 
 
-def render_png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
+def render_png(figure: report.Figure) -> tuple[bytes, dict[str, Any]]:
     """Render the figure as PNG with its size in screen pixels, as IPython requires."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    from holdfast.interface.report.figures import style
-
     data, original_dpi = io.BytesIO(), figure.dpi
-    with style():
+    with report.style():
         figure.dpi = _PIXEL_DENSITY * _PIXELS_PER_INCH
         FigureCanvasAgg(figure).print_png(data)
         figure.dpi = original_dpi
@@ -64,7 +60,7 @@ def render_png(figure: Figure) -> tuple[bytes, dict[str, Any]]:
     return data.getvalue(), {"width": float(_PIXELS_PER_INCH * width), "height": float(_PIXELS_PER_INCH * height)}
 
 
-def show_once(figure: Figure) -> Figure:
+def show_once(figure: report.Figure) -> report.Figure:
     """Return the figure, prepared so that a notebook cell shows it once, with or without ``%matplotlib inline``."""
     vars(figure)["_repr_png_"] = partial(render_png, figure)
     return figure

@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from holdfast.core.formatting import Probability, format_interval, format_number, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.printing import TextTable, format_column, format_position, format_positions
+from holdfast.interface.report.page import Block, Section
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Block, Section
     from holdfast.model.arm.model import Arm
 
 Style = Literal["number", "percent", "text", "angle"]  # angle: rad is also given in degrees
@@ -154,11 +153,11 @@ class FigureSpec:
     ``preview`` draws a faster version for notebooks. With ``saved=False``, the results folder does not contain the figure.
     """
 
-    draw: Callable[[], Figure]
+    draw: Callable[[], report.Figure]
     title: str = "Results"
     caption: str = ""
     on_page: bool = True
-    preview: Callable[[], Figure] | None = None
+    preview: Callable[[], report.Figure] | None = None
     saved: bool = True
 
 

@@ -8,22 +8,27 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
 from holdfast.core.errors import InputError
 from holdfast.core.extras import MissingModuleError
 from holdfast.core.files.output import make_folder, replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.core.progress import reports_progress
+from holdfast.core.provenance import versions
 from holdfast.core.result import Presentable, Result
+from holdfast.interface import report
 from holdfast.interface.presentation import call_presenter, find_presenter
-from holdfast.interface.presentation.page_content import build_method_blocks
+from holdfast.interface.presentation.notebook import embed_figure, format_table, show_once
 from holdfast.interface.presentation.presentation import FigureSpec, Presentation
 from holdfast.interface.presentation.printing import TextTable, print_table, to_json_types
+from holdfast.interface.report import page
+from holdfast.interface.report.page import Block, Callout, Page, Picture, Section, Table, Text
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from rich.console import Console
 
-    from holdfast.interface.report.page import Block, Section
+    from holdfast.model.arm.model import Arm
 
 _MAX_NARROW_COLUMNS = 5  # columns
 _HARD_SPACE = "\N{NO-BREAK SPACE}"
@@ -98,8 +103,6 @@ def _list_facts(presentation: Presentation) -> list[list[str]]:
 
 def in_notebook(thing: Presentable) -> str:
     """Return the answer, the key numbers, and the main figure as HTML without scripts, for the output of a notebook cell."""
-    from holdfast.interface.presentation.notebook import format_table
-
     presentation = present(thing)
     answer, *remarks = _list_sentences(presentation)
     parts = [f"<p><strong>{escape(answer)}</strong></p>", *(f"<p>{escape(remark)}</p>" for remark in remarks[:2])]
@@ -119,8 +122,6 @@ def in_notebook(thing: Presentable) -> str:
 
 def picture(thing: Presentable, about: str) -> str:
     """Return the main figure as HTML, if there is one."""
-    from holdfast.interface.presentation.notebook import embed_figure
-
     main_figure = list(present(thing).figures.items())[:1]
     return "".join(embed_figure((figure.preview or figure.draw)(), f"{name}: {about}") for name, figure in main_figure)
 
@@ -128,19 +129,17 @@ def picture(thing: Presentable, about: str) -> str:
 # ---- figures -------------------------------------------------------------------------------------------------------------
 
 
-def figures(result: Result, **options: Any) -> dict[str, Figure]:
+def figures(result: Result, **options: Any) -> dict[str, report.Figure]:
     """Draw all figures of the result."""
     return {name: figure.draw() for name, figure in present(result, **options).figures.items()}
 
 
-def plot(result: Result, name: str = "", **options: Any) -> Figure:
+def plot(result: Result, name: str = "", **options: Any) -> report.Figure:
     """Draw one figure of the result, the first one if ``name`` is empty; a notebook shows it with or without pyplot.
 
     Raises:
         InputError: The result has no figure, or none with this name.
     """
-    from holdfast.interface.presentation.notebook import show_once
-
     specs: Mapping[str, FigureSpec] = present(result, **options).figures
     if not specs:
         raise InputError(f"{type(result).__name__} has no figure; use result.describe() instead")
@@ -155,20 +154,16 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
 @reports_progress("drawing the report")
 def write(result: Result, path: Path, command: str = "", **options: Any) -> Path:
     """Write the HTML report: the answer, the evidence, the method, and the command that reproduces the run."""
-    from holdfast.interface.report import page
-
     return page.write(build_page(present(result, **options), command), path)
 
 
-def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Any:
+def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str, report.Figure] | None = None) -> Any:
     """Build the page of a presentation; ``drawn`` contains figures, by name, that need not be drawn again."""
-    from holdfast.interface.report.page import Callout, Page, Picture, Section, Text
-
     figure_blocks: dict[str, list[Block]] = {}
     for name, figure in presentation.figures.items():
         if figure.on_page:
             drawn_figure = drawn[name] if drawn and name in drawn else figure.draw()
-            image = render_svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
+            image = report.svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
     is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
     facts = list(zip(presentation.facts, is_at_top, strict=True))
@@ -200,8 +195,6 @@ def _is_uninformative(text: str) -> bool:
 
 def build_table_block(table: TextTable) -> Any:
     """Convert a table to a block of a page; columns that contain words are left-aligned."""
-    from holdfast.interface.report.page import Table
-
     head = table.head if any(table.head) else ()
     rows = [[_flatten_cell(cell) for cell in row] for row in table.rows]
     is_wide = bool(rows) and len(rows[0]) > _MAX_NARROW_COLUMNS
@@ -220,24 +213,11 @@ def _flatten_cell(cell: str) -> str:
     return f"{value} ({_HARD_SPACE.join(second_line.split())})" if second_line else value
 
 
-def render_svg(figure: Figure, name: str, description: str) -> Any:
-    """Render a figure as SVG for a page."""
-    from holdfast.interface.report.figures import svg
-
-    return svg(figure, name, description)
-
-
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100, **options: Any) -> list[Path]:
     """Write the figures as PNG files, the exported files, and the report into a folder; return all written paths."""
-    from holdfast.interface.report import page
-
     folder, presentation = make_folder(folder), present(result, **options)
     drawn = {name: figure.draw() for name, figure in presentation.figures.items() if figure.saved}
-    files = []
-    if drawn:
-        from holdfast.interface.report.figures import save_png
-
-        files = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
+    files = [report.save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
     for name, write_file in presentation.exports.items():
         write_file(folder / name)
         files.append(folder / name)
@@ -254,3 +234,16 @@ def write_rrd(result: Result, path: Path) -> Path:
 def write_json(result: Result, path: Path) -> None:
     """Write the numbers of the result as JSON."""
     replace_file(path, json.dumps(result.to_dict(), indent=2) + "\n")
+
+
+def build_method_blocks(arm: Arm | None, *rows: tuple[Any, Any]) -> list[Any]:
+    """Build the method section of a page from the given rows, the provenance of the arm, and the package versions."""
+    if arm is not None:
+        fingerprint = Markup("<code>{}</code>").format(arm.fingerprint)
+        rows = (*rows, ("Arm", arm.provenance), ("Fingerprint of the arm", fingerprint))
+    return [Table([*rows, ("Versions", format_versions(versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")))])]
+
+
+def format_versions(versions: Mapping[str, Any]) -> str:
+    """Format the versions of packages as one line."""
+    return ", ".join(f"{name} {version}" for name, version in versions.items())

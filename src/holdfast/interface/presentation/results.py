@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from holdfast.core.result import Result
+from holdfast.interface import report
 from holdfast.interface.presentation import call_presenter
 from holdfast.interface.presentation.printing import make_console, print_json, print_written_files
 
@@ -55,7 +56,5 @@ def write_outputs(result: Result, plot: Path | None, out: Path | None = None, **
     """
     files = []
     if plot is not None:
-        from holdfast.interface.report.figures import save_png
-
-        files.append(save_png(next(iter(result.figures(**options).values())), plot))
+        files.append(report.save_png(next(iter(result.figures(**options).values())), plot))
     return files if out is None else [*files, *result.save(out, command=current_command(), **options)]

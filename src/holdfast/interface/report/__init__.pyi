@@ -1,3 +1,8 @@
+from matplotlib.axes import Axes as Axes
+from matplotlib.figure import Figure as Figure
+from matplotlib.lines import Line2D as Line2D
+from matplotlib.patches import Patch as Patch
+
 from holdfast.core.formatting import insert_nonbreaking_spaces as insert_nonbreaking_spaces
 from holdfast.interface.report.curves import KIND_STYLES as KIND_STYLES
 from holdfast.interface.report.figures import WIDTH_IN as WIDTH_IN
@@ -10,16 +15,21 @@ from holdfast.interface.report.figures import compare_cdf_figure as compare_cdf_
 from holdfast.interface.report.figures import distribution_figure as distribution_figure
 from holdfast.interface.report.figures import draw_cdf as draw_cdf
 from holdfast.interface.report.figures import draw_quantile_bands as draw_quantile_bands
+from holdfast.interface.report.figures import format_label as format_label
 from holdfast.interface.report.figures import legend_below as legend_below
+from holdfast.interface.report.figures import locate_axes as locate_axes
 from holdfast.interface.report.figures import save_png as save_png
 from holdfast.interface.report.figures import settle_layout as settle_layout
 from holdfast.interface.report.figures import style as style
+from holdfast.interface.report.figures import styled_figure as styled_figure
 from holdfast.interface.report.figures import svg as svg
+from holdfast.interface.report.manifolds import JointPanel as JointPanel
 from holdfast.interface.report.maps import map_figure as map_figure
 from holdfast.interface.report.maps import share_figure as share_figure
 from holdfast.interface.report.outcomes import Gains as Gains
 from holdfast.interface.report.outcomes import Spread as Spread
 from holdfast.interface.report.outcomes import Stack as Stack
+from holdfast.interface.report.outcomes import fraction_figure as fraction_figure
 from holdfast.interface.report.outcomes import gain_figure as gain_figure
 from holdfast.interface.report.outcomes import spread_figure as spread_figure
 from holdfast.interface.report.outcomes import stack_figure as stack_figure
@@ -35,6 +45,7 @@ from holdfast.interface.report.page import render as render
 from holdfast.interface.report.page import write as write
 from holdfast.interface.report.palette import AMBER as AMBER
 from holdfast.interface.report.palette import BLUE as BLUE
+from holdfast.interface.report.palette import EMPTY_COLOR as EMPTY_COLOR
 from holdfast.interface.report.palette import FAINT as FAINT
 from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
@@ -46,5 +57,6 @@ from holdfast.interface.report.places import bin_positions as bin_positions
 from holdfast.interface.report.places import place_maps as place_maps
 from holdfast.interface.report.scenes import Scale as Scale
 from holdfast.interface.report.scenes import Scene as Scene
+from holdfast.interface.report.scenes import label_color_bar as label_color_bar
 from holdfast.interface.report.scenes import view_figure as view_figure
 from holdfast.interface.report.views import View as View

@@ -16,19 +16,8 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import (
-    BLUE,
-    FAINT,
-    GREEN,
-    INK,
-    ORANGE,
-    PURPLE,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    settle_layout,
-    style,
-)
+from holdfast.interface.report.figures import WIDTH_IN, format_label, styled_figure
+from holdfast.interface.report.palette import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT
 
 # Colour, line width, line style and marker of each kind; sinks stand out.
 KIND_STYLES: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
@@ -80,8 +69,7 @@ def stationary_curves_figure(
         reachable_intervals: Intervals of locked values for which the target is within reach; they are shaded.
         caption: Line below the figure.
     """
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 0.9 + 2.5 * len(ylabels)))
+    with styled_figure(WIDTH_IN, 0.9 + 2.5 * len(ylabels)) as figure:
         panels = np.atleast_1d(figure.subplots(len(ylabels), 1, sharex=True))
         for panel, (axes, ylabel) in enumerate(zip(panels, ylabels, strict=True)):
             for lower, upper in reachable_intervals:
@@ -123,7 +111,7 @@ def stationary_curves_figure(
             handles.append(Patch(color=_REACHABLE_COLOR, label="target within reach"))
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def basin_map_figure(
@@ -147,8 +135,7 @@ def basin_map_figure(
         caption: Line below the figure.
     """
     colors = _choose_basin_colors(names)
-    with style():
-        figure = Figure(figsize=(7.4, 6.6))
+    with styled_figure(7.4, 6.6) as figure:
         axes = figure.add_subplot()
         image = np.array([to_rgb(cell_color) for cell_color in colors])[cells.T]
         axes.imshow(image, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
@@ -176,13 +163,12 @@ def basin_map_figure(
             if label.endswith("deg"):
                 axis.set_major_locator(MultipleLocator(60))
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float, float, float]], caption: str) -> Figure:
     """Plot fractions of initial configurations, each ``(value, low, high)``, as bars with their confidence intervals."""
-    with style():
-        figure = Figure(figsize=(WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)))
+    with styled_figure(WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)) as figure:
         axes: Axes = figure.add_subplot()
         positions = np.arange(len(names))
         percentages, lower, upper = (100 * np.array(column) for column in zip(*fractions, strict=True))
@@ -204,7 +190,7 @@ def basin_fraction_figure(names: Sequence[str], fractions: Sequence[tuple[float,
         axes.set(xlabel="fraction of start configurations, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
         axes.grid(axis="y", visible=False)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def _choose_basin_colors(names: Sequence[str]) -> list[str]:

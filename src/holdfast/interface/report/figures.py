@@ -30,16 +30,11 @@ from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import format_percent, shorten_to_one_line
 from holdfast.core.progress import count_finished_part
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.palette import AMBER as AMBER
-from holdfast.interface.report.palette import BLUE as BLUE
-from holdfast.interface.report.palette import EMPTY_COLOR as EMPTY_COLOR
-from holdfast.interface.report.palette import FAINT as FAINT
+from holdfast.interface.report.palette import AMBER, BLUE, LIGHT_BLUE, SKY
 from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
-from holdfast.interface.report.palette import LIGHT_BLUE as LIGHT_BLUE
 from holdfast.interface.report.palette import ORANGE as ORANGE
 from holdfast.interface.report.palette import PURPLE as PURPLE
-from holdfast.interface.report.palette import SKY as SKY
 from holdfast.interface.report.palette import SOFT as SOFT
 
 # Up to 28 curves differ pairwise in colour, line style, or both.
@@ -88,6 +83,15 @@ def style() -> Iterator[None]:
         # The browser substitutes glyphs that the fonts on this machine lack.
         warnings.filterwarnings("ignore", message="Glyph .* missing", category=UserWarning)
         yield
+
+
+@contextmanager
+def styled_figure(width_in: float, height_in: float) -> Iterator[Figure]:
+    """Create a figure of this width and height, inches, in the figure style, and settle its layout after the block."""
+    with style():
+        figure = Figure(figsize=(width_in, height_in))
+        yield figure
+        settle_layout(figure)
 
 
 def format_label(text: str, max_letters: int = 60) -> str:
@@ -263,13 +267,12 @@ def cdf_figure(
     width: float = 5.4,
 ) -> Figure:
     """Plot cumulative distributions in one panel."""
-    with style():
-        figure = Figure(figsize=(width, 3.9))
+    with styled_figure(width, 3.9) as figure:
         axes = figure.add_subplot()
         draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
         axes.set_title(title)
         legend_below(figure, axes)
-        return settle_layout(figure)
+    return figure
 
 
 def distribution_figure(
@@ -283,15 +286,14 @@ def distribution_figure(
     log: bool = False,
 ) -> Figure:
     """Plot a histogram on the left and cumulative distributions on the right, over the same axis."""
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.9))
+    with styled_figure(WIDTH_IN, 3.9) as figure:
         histogram_axes, cdf_axes = figure.subplots(1, 2)
         draw_histogram(histogram_axes, bins, marks, xlabel, log)
         draw_cdf(cdf_axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
         histogram_axes.set_title(titles[0])
         cdf_axes.set_title(titles[1])
         legend_below(figure, cdf_axes)
-        return settle_layout(figure)
+    return figure
 
 
 def compare_cdf_figure(
@@ -299,9 +301,8 @@ def compare_cdf_figure(
 ) -> Figure:
     """Plot many cumulative distributions without bands, one panel for each title; equal labels have the same line style."""
     labels = list(dict.fromkeys(curve.label for _, curves in panels for curve in curves))
-    with style():
-        legend_rows = -(-(len(labels) + len(marks)) // 3)
-        figure = Figure(figsize=(WIDTH_IN if len(panels) > 1 else 0.75 * WIDTH_IN, 3.9 + 0.2 * legend_rows))
+    legend_rows = -(-(len(labels) + len(marks)) // 3)
+    with styled_figure(WIDTH_IN if len(panels) > 1 else 0.75 * WIDTH_IN, 3.9 + 0.2 * legend_rows) as figure:
         all_axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for axes, (title, curves) in zip(all_axes, panels, strict=True):
             for curve in curves:
@@ -314,7 +315,7 @@ def compare_cdf_figure(
             axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02), title=title)
             _set_x_axis(axes, curves[0].x, log)
         legend_below(figure, all_axes[0], 3)
-        return settle_layout(figure)
+    return figure
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
@@ -346,8 +347,7 @@ def bar_figure(
     denominator = sum(counts) if total is None else total
     max_count = max(counts, default=0) or 1
     stressed_count = max_count if stress == "most" else min(counts)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN * 0.8, 0.75 + 0.27 * len(names)))
+    with styled_figure(WIDTH_IN * 0.8, 0.75 + 0.27 * len(names)) as figure:
         axes = figure.add_subplot()
         positions = np.arange(len(names))
         axes.barh(positions, counts, height=0.64, color=[BLUE if bar_count == stressed_count else SKY for bar_count in counts])
@@ -370,7 +370,7 @@ def bar_figure(
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        return settle_layout(figure)
+    return figure
 
 
 def settle_layout(figure: Figure) -> Figure:

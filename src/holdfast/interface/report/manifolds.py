@@ -13,19 +13,9 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from holdfast.core.typing import BoolArray, FloatArray
-from holdfast.interface.report.figures import (
-    BLUE,
-    EMPTY_COLOR,
-    INK,
-    ORANGE,
-    SKY,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    settle_layout,
-    style,
-)
+from holdfast.interface.report.figures import WIDTH_IN, format_label, styled_figure
 from holdfast.interface.report.motions import draw_chain, show_view
+from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, INK, ORANGE, SKY, SOFT
 from holdfast.interface.report.views import View
 
 _CURVE_GAP_FRACTION = 0.04  # gap between two curves, as a fraction of the total length
@@ -63,9 +53,8 @@ def self_motion_figure(
         views: Projections in which the arm is drawn.
         caption: Line below the figure.
     """
-    with style():
-        height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
-        figure = Figure(figsize=(WIDTH_IN, height))
+    height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
+    with styled_figure(WIDTH_IN, height) as figure:
         joint_figure, arm_figure = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
         joint_axes = np.atleast_1d(joint_figure.subplots(len(joints), 1, sharex=True))
         total_length = sum(float(lengths[-1]) for lengths, _ in curves) or 1.0
@@ -96,7 +85,7 @@ def self_motion_figure(
         ]
         figure.legend(handles=handles, loc="outside upper right", ncols=2)
         figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_joint(
@@ -162,8 +151,7 @@ def region_figure(
         error: (2,) distances from the size of the region to the lower and upper end of its interval.
         caption: Line below the figure.
     """
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 4.6))
+    with styled_figure(WIDTH_IN, 4.6) as figure:
         panels = figure.subplots(1, len(maps) + 1, width_ratios=[1.0] * len(maps) + [0.9 if len(maps) > 1 else 1.1])
         for axes, region_map in zip(panels, maps, strict=False):
             _draw_map(axes, region_map)
@@ -190,7 +178,7 @@ def region_figure(
         handles = [Patch(facecolor=color, label=legend_text) for color, legend_text in legend_entries]
         figure.legend(handles=handles, loc="outside upper left", ncols=3)
         figure.supxlabel(format_label(caption, 220), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_map(axes: Axes, region: RegionMap) -> None:

@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import INK, WIDTH_IN, settle_layout, style
+from holdfast.interface.report.figures import WIDTH_IN, styled_figure
+from holdfast.interface.report.palette import INK
 from holdfast.interface.report.scenes import Scale, label_color_bar
 from holdfast.interface.report.views import View
 
@@ -48,10 +49,9 @@ def map_figure(
     averages = np.concatenate([grid[2].ravel() for grid_row in grids for grid in grid_row])
     has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
     scale = replace(Scale.from_values(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
-    with style():
-        aspect = max(float(height / view_width) for view_width, height in (view.project(upper - lower) for view in views))
-        height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
-        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else 6.2, height * len(samples)))
+    aspect = max(float(height / view_width) for view_width, height in (view.project(upper - lower) for view in views))
+    height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
+    with styled_figure(WIDTH_IN if len(views) > 1 else 6.2, height * len(samples)) as figure:
         panels = figure.subplots(len(samples), len(views), squeeze=False)
         for name, axes_row, grid_row in zip(samples, panels, grids, strict=True):
             for axes, view, (x_edges, y_edges, mean, value_counts, point_counts) in zip(axes_row, views, grid_row, strict=True):
@@ -67,7 +67,7 @@ def map_figure(
             extend=scale.extend(averages),
         )
         label_color_bar(colorbar, label, scale)
-        return settle_layout(figure)
+    return figure
 
 
 def share_figure(
@@ -91,10 +91,9 @@ def share_figure(
     """
     lower, upper = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
-    with style():
-        view_width, view_height = view.project(upper - lower)
-        aspect = float(view_height / view_width)
-        figure = Figure(figsize=(WIDTH_IN, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8))
+    view_width, view_height = view.project(upper - lower)
+    aspect = float(view_height / view_width)
+    with styled_figure(WIDTH_IN, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8) as figure:
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for panel_axes, (title, has_property) in zip(axes, panels, strict=True):
             x_edges, y_edges, fractions, point_counts, _ = _average_cells(
@@ -103,7 +102,7 @@ def share_figure(
             _draw_cells(panel_axes, x_edges, y_edges, fractions, point_counts, point_counts, scale, False)
             panel_axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
         label_color_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
-        return settle_layout(figure)
+    return figure
 
 
 def _average_cells(

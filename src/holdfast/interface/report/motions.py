@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.figures import WIDTH_IN, format_label, styled_figure
+from holdfast.interface.report.palette import BLUE, INK, ORANGE, SKY, SOFT
 from holdfast.interface.report.timelines import LINE_COLORS
 from holdfast.interface.report.views import View
 
@@ -66,12 +67,11 @@ def motion_figure(
     panels: Sequence[TimePanel], caption: str, xlabel: str = "time since the failure, s", *, panel_width: float = WIDTH_IN / 2.4
 ) -> Figure:
     """Plot panels side by side over time, each ``panel_width`` inches wide, with one line of text below."""
-    with style():
-        figure = Figure(figsize=(panel_width * len(panels), 3.7))
+    with styled_figure(panel_width * len(panels), 3.7) as figure:
         for axes, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
             draw_panel(axes, panel, xlabel)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def draw_panel(axes: Axes, panel: TimePanel, xlabel: str) -> None:
@@ -121,8 +121,7 @@ def stick_motion_figure(
         xlabel: Label of the time axis, with the unit.
         path_label: Legend entry of the desired path of the tool, which is drawn dashed.
     """
-    with style():
-        figure = Figure(figsize=(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4))
+    with styled_figure(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4) as figure:
         *view_axes, panel_axes = figure.subplots(1, len(views) + 1)
         for axes, view in zip(view_axes, views, strict=True):
             _draw_stick_figure(axes, motion, view, path_label)
@@ -130,7 +129,7 @@ def stick_motion_figure(
         handles, labels = view_axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
         figure.supxlabel(format_label(caption, 200), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 def draw_chain(

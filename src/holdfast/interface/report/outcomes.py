@@ -13,20 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import (
-    BLUE,
-    CURVE_COLORS,
-    FAINT,
-    INK,
-    ORANGE,
-    PURPLE,
-    SKY,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    settle_layout,
-    style,
-)
+from holdfast.interface.report.figures import CURVE_COLORS, WIDTH_IN, format_label, styled_figure
+from holdfast.interface.report.palette import BLUE, FAINT, INK, ORANGE, PURPLE, SKY, SOFT
 
 # Neighbours differ in hue and lightness, and are hatched if they would look alike in a black-and-white print.
 OUTCOME_FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
@@ -66,8 +54,7 @@ def stack_figure(
         caption: Lines below the figure; none if empty.
     """
     bar_count = sum(len(stack.bars) for stack in stacks)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)))
+    with styled_figure(WIDTH_IN, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)) as figure:
         axes = figure.add_subplot()
         next_position, ticks, labels, middles = 0.0, [], [], []
         for stack in stacks:
@@ -118,7 +105,7 @@ def stack_figure(
         figure.legend(handles=legend_handles, loc=legend_location, ncols=3, columnspacing=2.0)
         if caption:
             figure.supxlabel("\n".join(format_label(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
-        return settle_layout(figure)
+    return figure
 
 
 @dataclass(frozen=True)
@@ -132,8 +119,7 @@ class Spread:
 
 def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
     """Plot quantiles side by side: a thin line from 5 to 95 %, a thick one from 25 to 75 %, a dot at the median."""
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.25 + 0.3 * len(names)))
+    with styled_figure(WIDTH_IN, 1.25 + 0.3 * len(names)) as figure:
         all_axes = figure.subplots(1, len(spreads), squeeze=False, sharey=True)[0]
         for axes, spread in zip(all_axes, spreads, strict=True):
             _draw_quantile_bars(axes, spread)
@@ -147,7 +133,7 @@ def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
             Line2D([], [], color=BLUE, marker="o", linestyle="", label="median"),
         ]
         figure.legend(handles=legend_handles, loc="outside lower center", ncols=3, columnspacing=2.0)
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_quantile_bars(axes: Axes, spread: Spread) -> None:
@@ -176,8 +162,7 @@ class Gains:
 def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains]]]) -> Figure:
     """Plot differences as dots with their intervals, one row per case and one panel per quantity (name with unit, values)."""
     max_gains = max(len(gains) for _, gains in panels)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)))
+    with styled_figure(WIDTH_IN, 1.3 + (0.16 + 0.19 * max_gains) * len(cases)) as figure:
         all_axes = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
         for axes, (label, gains) in zip(all_axes, panels, strict=True):
             axes.axvline(0, color=SOFT, linewidth=1.0)
@@ -186,13 +171,12 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
             _label_cases(axes, cases, 30)
         handles, labels = all_axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(max_gains, 3), columnspacing=2.0)
-        return settle_layout(figure)
+    return figure
 
 
 def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: str) -> Figure:
     """Plot fractions from 0 to 1 as dots with their intervals, one row per case, one colour and marker per method."""
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)))
+    with styled_figure(WIDTH_IN, 1.1 + (0.16 + 0.1 * len(fractions)) * len(cases)) as figure:
         axes = figure.add_subplot()
         for row in range(1, len(cases), 2):
             axes.axhspan(row - 0.5, row + 0.5, color=FAINT, alpha=0.25, linewidth=0)
@@ -202,7 +186,7 @@ def fraction_figure(cases: Sequence[str], fractions: Sequence[Gains], xlabel: st
         axes.grid(axis="y", visible=False)
         handles, labels = axes.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(fractions), 5), columnspacing=2.0)
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_interval_dots(axes: Axes, gains: Sequence[Gains]) -> None:

@@ -12,14 +12,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import insert_nonbreaking_spaces
 from holdfast.interface.report.viewer import embed_viewer_library, read_template, to_script_json
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 Cell = str | Markup
 FOOTER_TEXT = "Written by holdfast. This file needs no network and no other file."
@@ -215,6 +217,8 @@ def _break_after_underscores(cell: Cell) -> Cell:
 @cache
 def create_template_environment() -> Environment:
     """Create the environment of the HTML templates, with their filters."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
     templates = Environment(
         loader=PackageLoader("holdfast.interface.report"),
         autoescape=True,

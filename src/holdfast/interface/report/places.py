@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import EMPTY_COLOR, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.figures import WIDTH_IN, format_label, styled_figure
+from holdfast.interface.report.palette import EMPTY_COLOR, INK, ORANGE, SOFT
 from holdfast.interface.report.scenes import Scale, label_color_bar
 
 
@@ -52,10 +53,9 @@ def place_maps(
         most: Upper end of the colour scale.
     """
     scale = Scale(0.0, most)
-    with style():
-        column_count, row_count = next(iter(rows.values())).shape[1], len(rows)
-        panel_edge = min(2.5, max(1.7, WIDTH_IN / column_count))
-        figure = Figure(figsize=(panel_edge * column_count + 1.4, (panel_edge + 0.15) * row_count + 0.9))
+    column_count, row_count = next(iter(rows.values())).shape[1], len(rows)
+    panel_edge = min(2.5, max(1.7, WIDTH_IN / column_count))
+    with styled_figure(panel_edge * column_count + 1.4, (panel_edge + 0.15) * row_count + 0.9) as figure:
         panels = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for row, (name, values) in enumerate(rows.items()):
             for column_index in range(column_count):
@@ -76,7 +76,7 @@ def place_maps(
         if plane.mark is not None:  # the legend must not cover the titles
             handles, labels = panels[0, 0].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside upper right")
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scale) -> None:

@@ -21,8 +21,9 @@ from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import INK, ORANGE, SOFT, WIDTH_IN, settle_layout, style
+from holdfast.interface.report.figures import WIDTH_IN, styled_figure
 from holdfast.interface.report.motions import draw_chain
+from holdfast.interface.report.palette import INK, ORANGE, SOFT
 from holdfast.interface.report.views import View
 
 
@@ -232,10 +233,9 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
         label: Label of the colour bar.
         legend: Kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and text of each legend entry.
     """
-    with style():
-        panel_width = 4.1 if len(views) > 1 else 5.0
-        spans, height = fit_view_spans(scene, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
-        figure = Figure(figsize=(WIDTH_IN if len(views) > 1 else panel_width + 2.2, height + 1.5))
+    panel_width = 4.1 if len(views) > 1 else 5.0
+    spans, height = fit_view_spans(scene, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
+    with styled_figure(WIDTH_IN if len(views) > 1 else panel_width + 2.2, height + 1.5) as figure:
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
             draw_view(axes, scene, view, scale, choose_dot_area(scene, views, panel_width / spans[0]), spans, panel_width)
@@ -247,7 +247,7 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str
             ncols=min(len(legend), 4),
             columnspacing=2.0,
         )
-        return settle_layout(figure)
+    return figure
 
 
 def add_color_bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
@@ -296,26 +296,13 @@ def fit_view_spans(
 
 
 def _legend_entry(kind: str, text: str) -> Any:
+    node_style = {"color": INK, "markerfacecolor": "white", "markeredgewidth": 1.4, "markersize": 6, "linewidth": 2.8}
     entry_styles: dict[str, dict[str, Any]] = {
         "dot": {"marker": "o", "color": "#21918c", "linestyle": "", "markersize": 5},
         "cross": {"marker": "x", "color": "#9aa1a8", "linestyle": "", "markersize": 5},
         "box": {"color": SOFT, "linewidth": 0.9, "linestyle": (0, (4, 2))},
-        "joint": {
-            "marker": "o",
-            "color": INK,
-            "markerfacecolor": "white",
-            "markeredgewidth": 1.4,
-            "markersize": 6,
-            "linewidth": 2.8,
-        },
-        "slide": {
-            "marker": "s",
-            "color": INK,
-            "markerfacecolor": "white",
-            "markeredgewidth": 1.4,
-            "markersize": 6,
-            "linewidth": 2.8,
-        },
+        "joint": {"marker": "o", **node_style},
+        "slide": {"marker": "s", **node_style},
         "tool": {"marker": "D", "color": ORANGE, "linestyle": "", "markeredgecolor": "white", "markersize": 6.5},
         "base": {"marker": "s", "color": INK, "linestyle": "", "markersize": 7.5},
     }

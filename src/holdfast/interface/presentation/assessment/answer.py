@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
@@ -25,22 +24,15 @@ from holdfast.model.arm.poses import rotations_of_quaternions
 from holdfast.model.arm.task import as_task
 from holdfast.studies.assessment.assessment import MIN_INFORMATIVE_PROBABILITY, ZERO_INDEX, Assessment
 from holdfast.studies.assessment.single_points import Structure, structure, structures
-from holdfast.studies.assessment.upgrade import make_run_sample
+from holdfast.studies.assessment.upgrade import RunSample, make_run_sample
 
 
 @dataclass(frozen=True)
-class EvaluatedPoses:
-    """Evaluated poses of a run, with tool poses also for a region of joints."""
+class EvaluatedPoses(RunSample):
+    """Evaluated poses of a run with positions (N, 3), m, and rotations (N, 3, 3) of the tool, also for a region of joints."""
 
-    number: NDArray[np.int64]
     position: FloatArray
     rotation: FloatArray
-    q: FloatArray
-    reached: NDArray[np.bool_]
-    value: FloatArray
-    by_failure: FloatArray
-    worst: NDArray[np.int64]
-    weight: FloatArray | None
 
 
 class ThresholdAnswer:
@@ -271,17 +263,7 @@ class ThresholdAnswer:
             columns = self.assessment.columns
             position = columns["position"][:][evaluated.number]
             rotation = rotations_of_quaternions(columns["quaternion"][:][evaluated.number])
-        return EvaluatedPoses(
-            evaluated.number,
-            position,
-            rotation,
-            evaluated.q,
-            evaluated.reached,
-            evaluated.value,
-            evaluated.by_failure,
-            evaluated.worst,
-            evaluated.weight,
-        )
+        return EvaluatedPoses(**vars(evaluated), position=position, rotation=rotation)
 
     @cached_property
     def optimised_poses(self) -> EvaluatedPoses | None:
@@ -289,14 +271,7 @@ class ThresholdAnswer:
         if self.poses is None or self.assessment.optimised is None:
             return None
         evaluated = make_run_sample(self.assessment.index, self.assessment.columns, optimised=True)
-        return replace(
-            self.poses,
-            q=evaluated.q,
-            reached=evaluated.reached,
-            value=evaluated.value,
-            by_failure=evaluated.by_failure,
-            worst=evaluated.worst,
-        )
+        return EvaluatedPoses(**vars(evaluated), position=self.poses.position, rotation=self.poses.rotation)
 
     @property
     def samples(self) -> list[tuple[str, Distribution, EvaluatedPoses | None]]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,22 +18,18 @@ from holdfast.core.formatting import (
     format_percent,
     list_alternatives,
 )
+from holdfast.core.probability.distribution import Distribution
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.presentation.assessment.explanations import explain_index
-from holdfast.interface.presentation.assessment.method import list_method
+from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.method import explain_index, list_method
+from holdfast.interface.presentation.assessment.page import build_sections, draw_overview
+from holdfast.interface.presentation.assessment.sections.gain import draw_cdf_figure
 from holdfast.interface.presentation.assessment.tables import build_tables, rank_optimised_upgrades
 from holdfast.interface.presentation.collision.shape import describe_cell, summarize_shape
+from holdfast.interface.presentation.commands import build_rerun_blocks
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.model.failure_modes import failure_sets
-from holdfast.studies.assessment.assessment import ZERO_INDEX
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.core.probability.distribution import Distribution
-    from holdfast.interface.report.page import Block, Section
-    from holdfast.studies.assessment.assessment import Assessment
+from holdfast.studies.assessment.assessment import ZERO_INDEX, Assessment
 
 Thresholds = Sequence[float] | None
 _USUAL_THRESHOLDS = (0.05, 0.1, 0.2, 0.3)  # of an index with a bound
@@ -57,7 +53,7 @@ def present(
         report: Unused; the command prints the path of the report with the other written files.
     """
     del report
-    answer = ThresholdAnswer(assessment, thresholds[0] if threshold is None and thresholds else threshold)
+    answer = AssessmentFacts(assessment, thresholds[0] if threshold is None and thresholds else threshold)
     distribution, index = answer.distribution, answer.index
     notices = []
     if not assessment.complete:
@@ -66,9 +62,9 @@ def present(
             f"these. Repeat the command to resume."
         )
         notices.append(Notice(text, "bad", "This run is not complete"))
-    figures = {"overview": FigureSpec(partial(_draw_overview, answer), on_page=False)}
+    figures = {"overview": FigureSpec(partial(draw_overview, answer), on_page=False)}
     if distribution.reached > distribution.infinite:
-        figures["cdf"] = FigureSpec(partial(_draw_distribution, answer), on_page=False)
+        figures["cdf"] = FigureSpec(partial(draw_cdf_figure, answer), on_page=False)
     return Presentation(
         f"Fault tolerance of {assessment.arm.name}",
         answer.headline,
@@ -77,10 +73,10 @@ def present(
         facts=_list_facts(answer, rates) if distribution.samples else (),
         tables=partial(build_tables, answer, _choose_thresholds(assessment, thresholds)) if distribution.samples else (),
         figures=figures,
-        sections=partial(_build_sections, answer),
+        sections=partial(build_sections, answer),
         method=list_method(answer),
         arm=assessment.arm,
-        again=partial(_build_rerun_blocks, assessment),
+        again=partial(build_rerun_blocks, assessment),
     )
 
 
@@ -200,30 +196,6 @@ def summarize_collisions(answer: ThresholdAnswer) -> str:
     return f"{text} ({clearance.capsules.describe(answer.assessment.arm)}{cell_suffix})"
 
 
-def _build_rerun_blocks(assessment: Assessment) -> Sequence[Block]:
-    from holdfast.interface.presentation.commands import build_rerun_blocks
-
-    return build_rerun_blocks(assessment)
-
-
-def _build_sections(answer: ThresholdAnswer) -> Sequence[Section]:
-    from holdfast.interface.presentation.assessment.page import build_sections
-
-    return build_sections(answer)
-
-
-def _draw_overview(answer: ThresholdAnswer) -> Figure:
-    from holdfast.interface.presentation.assessment.page import draw_overview
-
-    return draw_overview(answer)
-
-
-def _draw_distribution(answer: ThresholdAnswer) -> Figure:
-    from holdfast.interface.presentation.assessment.sections.gain import draw_cdf_figure
-
-    return draw_cdf_figure(answer)
-
-
 # ---- JSON ----------------------------------------------------------------------------------------------------------------
 
 
@@ -243,46 +215,37 @@ def collect_numbers(
     """Collect all numbers of an assessment as JSON data, without the path of its report."""
     distribution = result.distribution
     reached = distribution.reached > 0
-    data: dict[str, Any] = to_json_types(
-        {
-            **result.arm.entry(),
-            "fingerprint": result.arm.fingerprint,
-            "index": result.index.label,
-            "unit": result.index.unit,
-            "better": result.index.better,
-            "bound": result.index.bound,
-            "bound_note": result.index.bound_note,
-            "best_known": result.index.best_known,
-            "task": result.index.task.name,
-            "characteristic_length_m": result.index.task.length,
-            "region": result.region.to_dict(),
-            "poses": result.poses,
-            "seed": result.seed,
-            "sampling": result.sampling,
-            "restarts": result.restarts,
-            "complete": result.complete,
-            "evaluated": distribution.samples,
-            "reached": distribution.reached,
-            "not_found": distribution.unreached,
-            "singular": distribution.singular,
-            "effective_sample_size": distribution.effective() if distribution.has_weights and distribution.samples else None,
-            "mean": distribution.mean if reached else None,
-            "quantiles": _collect_quantiles(distribution) if reached else None,
-            "band_95": distribution.band() if distribution.samples else None,
-            "probability": [_collect_probability(result, threshold) for threshold in _choose_thresholds(result, thresholds)]
-            if distribution.samples
-            else [],
-            "gap": result.gap(),
-            "worst_counts": dict(zip(result.index.failure_names, result.worst_counts.tolist(), strict=True)),
-            "upgrades": _collect_upgrades(result, thresholds),
-            "optimised": _collect_optimised_numbers(result, thresholds),
-            "clearance": _collect_collision_numbers(result),
-            "after_lock": _collect_survival(result),
-            "expected_survival": result.expected_survival(rates) if rates and distribution.samples else None,
-            "seconds": result.seconds,
-        }
-    )
-    return data
+    return {
+        **result.arm.entry(),
+        "fingerprint": result.arm.fingerprint,
+        "index": result.index.label,
+        **{
+            attribute: getattr(result.index, attribute) for attribute in ("unit", "better", "bound", "bound_note", "best_known")
+        },
+        "task": result.index.task.name,
+        "characteristic_length_m": result.index.task.length,
+        "region": result.region.to_dict(),
+        **{attribute: getattr(result, attribute) for attribute in ("poses", "seed", "sampling", "restarts", "complete")},
+        "evaluated": distribution.samples,
+        "reached": distribution.reached,
+        "not_found": distribution.unreached,
+        "singular": distribution.singular,
+        "effective_sample_size": distribution.effective() if distribution.has_weights and distribution.samples else None,
+        "mean": distribution.mean if reached else None,
+        "quantiles": _collect_quantiles(distribution) if reached else None,
+        "band_95": distribution.band() if distribution.samples else None,
+        "probability": [_collect_probability(result, threshold) for threshold in _choose_thresholds(result, thresholds)]
+        if distribution.samples
+        else [],
+        "gap": result.gap(),
+        "worst_counts": dict(zip(result.index.failure_names, result.worst_counts.tolist(), strict=True)),
+        "upgrades": _collect_upgrades(result, thresholds),
+        "optimised": _collect_optimised_numbers(result, thresholds),
+        "clearance": _collect_collision_numbers(result),
+        "after_lock": _collect_survival(result),
+        "expected_survival": result.expected_survival(rates) if rates and distribution.samples else None,
+        "seconds": result.seconds,
+    }
 
 
 def _collect_quantiles(distribution: Distribution) -> dict[str, float]:

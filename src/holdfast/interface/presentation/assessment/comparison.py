@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.formatting import format_as_given, format_count, format_interval, format_percent, indefinite_article
 from holdfast.core.probability.intervals import Interval
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.presentation.assessment.assessment import Thresholds, collect_numbers
+from holdfast.interface.presentation.assessment.comparison_figures import build_sections, draw_distributions
 from holdfast.interface.presentation.assessment.tables import (
     best_intervals_are_disjoint,
     find_leaders,
@@ -18,17 +19,13 @@ from holdfast.interface.presentation.assessment.tables import (
     rank_optimised_upgrades,
 )
 from holdfast.interface.presentation.collision.shape import describe_cell
+from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.printing import to_json_types
+from holdfast.interface.report.page import Block, Code, Text
+from holdfast.model.arm.model import Arm
 from holdfast.model.arms.tool import format_tool_pose
+from holdfast.studies.assessment.comparison import Comparison
 from holdfast.studies.assessment.upgrade import MAX_REOPTIMISED_POSES
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Block, Section
-    from holdfast.model.arm.model import Arm
-    from holdfast.studies.assessment.comparison import Comparison
 
 _MAX_UPGRADES = 3  # joints per candidate; its own report has all
 
@@ -38,23 +35,20 @@ def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path 
     optimised = all(assessment.optimised is not None for assessment in comparison.assessments)
     candidates = zip(comparison.names, comparison.tools, comparison.assessments, strict=True)
     threshold_values = thresholds or [comparison.threshold]
-    data: dict[str, Any] = to_json_types(
-        {
-            "candidates": [
-                {"name": name, "tool": tool, **collect_numbers(assessment, threshold_values)}
-                for name, tool, assessment in candidates
-            ],
-            "comparison": {
-                "threshold": comparison.threshold,
-                "table": comparison.table,
-                "ranking": comparison.ranking(),
-                "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
-                "notes": comparison.notes,
-                "report": None if report is None else str(report),
-            },
-        }
-    )
-    return data
+    return {
+        "candidates": [
+            {"name": name, "tool": tool, **collect_numbers(assessment, threshold_values)}
+            for name, tool, assessment in candidates
+        ],
+        "comparison": {
+            "threshold": comparison.threshold,
+            "table": comparison.table,
+            "ranking": comparison.ranking(),
+            "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
+            "notes": comparison.notes,
+            "report": None if report is None else str(report),
+        },
+    }
 
 
 def present(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> Presentation:
@@ -73,8 +67,10 @@ def present(comparison: Comparison, thresholds: Thresholds = None, report: Path 
         f"{format_count(first.distribution.samples, first.noun)} of each candidate",
         notices=notices,
         tables=partial(_build_tables, comparison, first),
-        figures={"compare": FigureSpec(partial(_draw_figure, comparison), on_page=False)} if _has_values(comparison) else {},
-        sections=partial(_build_sections, comparison),
+        figures={"compare": FigureSpec(partial(draw_distributions, comparison), on_page=False)}
+        if _has_values(comparison)
+        else {},
+        sections=partial(build_sections, comparison) if _has_values(comparison) else tuple,
         method=_list_method(comparison, first),
         again=partial(_build_rerun_blocks, comparison),
     )
@@ -300,23 +296,8 @@ def _has_values(comparison: Comparison) -> bool:
     )
 
 
-def _draw_figure(comparison: Comparison) -> Figure:
-    from holdfast.interface.presentation.assessment.comparison_figures import draw_distributions
-
-    return draw_distributions(comparison)
-
-
-def _build_sections(comparison: Comparison) -> Sequence[Section]:
-    from holdfast.interface.presentation.assessment.comparison_figures import build_sections
-
-    return build_sections(comparison) if _has_values(comparison) else ()
-
-
 def _build_rerun_blocks(comparison: Comparison) -> list[Block]:
     """Build the command of each candidate, and the files that the commands need."""
-    from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
-    from holdfast.interface.report.page import Code, Text
-
     blocks: list[Block] = []
     for name, assessment in zip(comparison.names, comparison.assessments, strict=True):
         command, remark = build_command_line(assessment)

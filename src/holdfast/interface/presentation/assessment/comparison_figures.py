@@ -5,20 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.core.formatting import format_as_given, format_count, format_half_width, format_interval
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment import thresholds
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.tables import best_intervals_are_disjoint, find_leaders
-from holdfast.interface.report import figures as drawing
-from holdfast.interface.report.figures import Curve, Mark
 from holdfast.interface.report.page import Block, Picture, Section
 from holdfast.studies.assessment.comparison import Comparison
 
 
-def draw_distributions(comparison: Comparison) -> Figure:
+def draw_distributions(comparison: Comparison) -> report.Figure:
     """Draw the cumulative distributions of all candidates."""
     f = AssessmentFacts(comparison.assessments[0], comparison.threshold)
     candidates = list(zip(comparison.names, comparison.assessments, strict=True))
@@ -34,14 +32,14 @@ def draw_distributions(comparison: Comparison) -> Figure:
             )
         )
     axis, log = _choose_index_axis(comparison, f)
-    marks = [Mark(comparison.threshold, f"threshold {format_as_given(comparison.threshold)}{f.unit_suffix}")]
+    marks = [report.Mark(comparison.threshold, f"threshold {format_as_given(comparison.threshold)}{f.unit_suffix}")]
     if (bound := _find_common_bound(comparison)) is not None:
-        marks.append(Mark(bound, f"no configuration can exceed {bound:.3f}", "bound"))
+        marks.append(report.Mark(bound, f"no configuration can exceed {bound:.3f}", "bound"))
     panels = [
-        (title, [Curve(axis, assessment.cdf(axis, optimised=optimised), name) for name, assessment in group])
+        (title, [report.Curve(axis, assessment.cdf(axis, optimised=optimised), name) for name, assessment in group])
         for title, group, optimised in samples
     ]
-    return drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
+    return report.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
 
 
 def _find_common_bound(comparison: Comparison) -> float | None:
@@ -67,7 +65,7 @@ def _choose_index_axis(comparison: Comparison, facts: AssessmentFacts) -> tuple[
     return np.linspace(min(0.0, *extremes), 1.04 * max(0.0, *extremes), 801), False
 
 
-def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figure: Figure, band: float) -> Block:
+def _build_threshold_slider(comparison: Comparison, facts: AssessmentFacts, figure: report.Figure, band: float) -> Block:
     """Build a threshold slider with the probability of each candidate and the best candidate at every step."""
     axis, log = _choose_index_axis(comparison, facts)
     threshold_values = thresholds.choose_thresholds(axis, log, comparison.threshold)
@@ -104,6 +102,6 @@ def build_sections(comparison: Comparison) -> list[Section]:
         text += f"A pose without a configuration counts as {'0' if facts.larger_is_better else 'infinite'}. "
     band_width = max(assessment.distribution.band() for assessment in comparison.assessments)
     text += f"The 95 % band of each curve is {format_half_width(band_width)}."
-    picture = Picture(drawing.svg(figure, "compare", "Cumulative distributions of all candidates"), text)
+    picture = Picture(report.svg(figure, "compare", "Cumulative distributions of all candidates"), text)
     slider = _build_threshold_slider(comparison, facts, figure, band_width)
     return [Section("Distribution of the index", [picture, slider])]

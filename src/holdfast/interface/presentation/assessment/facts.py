@@ -7,10 +7,8 @@ import numpy as np
 from holdfast.core.caching import cached_property
 from holdfast.core.formatting import format_as_given, format_half_width, format_number
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.report import figures
-from holdfast.interface.report.figures import Bin, Curve, Mark
-from holdfast.interface.report.scenes import Scale, Scene
 from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.studies.assessment.assessment import ZERO_INDEX
@@ -22,11 +20,6 @@ _MAX_AXIS_RATIO = 4.0  # times the largest value; a bound farther away would fla
 class AssessmentFacts(ThresholdAnswer):
     """Contents of the figures of an assessment, each computed once."""
 
-    @classmethod
-    def extend_answer(cls, answer: ThresholdAnswer) -> AssessmentFacts:
-        """Return the contents for an answer."""
-        return cls(answer.assessment, answer.threshold if answer.is_chosen else None)
-
     @property
     def has_finite_values(self) -> bool:
         """True if some reached pose has a finite index."""
@@ -35,7 +28,7 @@ class AssessmentFacts(ThresholdAnswer):
     @property
     def axis_label(self) -> str:
         """Label of an axis of index values, with the unit."""
-        return figures.format_label(f"worst-case {self.index.name}{self.unit_suffix and ','}{self.unit_suffix}")
+        return report.format_label(f"worst-case {self.index.name}{self.unit_suffix and ','}{self.unit_suffix}")
 
     # ---- figures ---------------------------------------------------------------------------------------------------
 
@@ -66,7 +59,7 @@ class AssessmentFacts(ThresholdAnswer):
         return (lower + upper) / 2, "in the middle of its joint limits"
 
     @cached_property
-    def scene(self) -> tuple[Scene, int]:
+    def scene(self) -> tuple[report.Scene, int]:
         """Scene of the views, and the number of poses in it."""
         assessment, poses = self.assessment, self.poses
         joint_positions = assessment.arm.frames(self.drawn_configuration[0])[:, :3, 3]
@@ -85,7 +78,7 @@ class AssessmentFacts(ThresholdAnswer):
         if assessment.region.kind == "box":
             center, size = np.array(assessment.region.center[:3]), np.array(assessment.region.size[:3])
             box = np.array([center - size / 2, center + size / 2])
-        return Scene(
+        return report.Scene(
             points,
             values,
             missing,
@@ -115,12 +108,12 @@ class AssessmentFacts(ThresholdAnswer):
         )
 
     @cached_property
-    def color_scale(self) -> Scale:
+    def color_scale(self) -> report.Scale:
         """Colour scale of the dots."""
         values = self.scene[0].values
         if self.is_worst_everywhere and self.larger_is_better:
-            return Scale(0.0, self.index.bound or 1.0)
-        return Scale.from_values(values, self.is_logarithmic, not self.larger_is_better)
+            return report.Scale(0.0, self.index.bound or 1.0)
+        return report.Scale.from_values(values, self.is_logarithmic, not self.larger_is_better)
 
     @cached_property
     def axis_values(self) -> FloatArray:
@@ -136,15 +129,15 @@ class AssessmentFacts(ThresholdAnswer):
         return np.linspace(lower, upper + 0.04 * ((upper - lower) or 1.0), 1601)
 
     @cached_property
-    def marks(self) -> list[Mark]:
+    def marks(self) -> list[report.Mark]:
         """Lines at the threshold and at the upper bound, without those far beyond all values."""
         candidates = (
-            [Mark(self.threshold, f"threshold {format_as_given(self.threshold)}{self.unit_suffix}")]
+            [report.Mark(self.threshold, f"threshold {format_as_given(self.threshold)}{self.unit_suffix}")]
             if self.has_threshold
             else []
         )
         if self.index.bound is not None:
-            candidates.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
+            candidates.append(report.Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
         highest = max(
             (
                 distribution.highest
@@ -157,14 +150,14 @@ class AssessmentFacts(ThresholdAnswer):
         return candidates if keep_all else [mark for mark in candidates if mark.x <= _MAX_AXIS_RATIO * highest]
 
     @cached_property
-    def curves(self) -> list[Curve]:
+    def curves(self) -> list[report.Curve]:
         """Cumulative distribution over all poses, and over the reached ones if some are not reached."""
         band = self.assessment.distribution.band()
         unreached_text = (
             f" (not reached: {'0' if self.larger_is_better else 'infinite'})" if self.distribution.unreached else ""
         )
         label_prefix = "" if not self.distribution.unreached else f"all {self.distribution.samples:,} poses{unreached_text}, "
-        all_poses = Curve(
+        all_poses = report.Curve(
             self.axis_values,
             self.assessment.cdf(self.axis_values),
             f"{label_prefix or f'all {self.distribution.samples:,} {self.noun}s, '}95 % band {format_half_width(band)}",
@@ -174,7 +167,7 @@ class AssessmentFacts(ThresholdAnswer):
             return [all_poses]
         return [
             all_poses,
-            Curve(
+            report.Curve(
                 self.axis_values,
                 self.assessment.cdf(self.axis_values, reachable_only=True),
                 f"the {self.distribution.reached:,} reached poses only",
@@ -183,11 +176,11 @@ class AssessmentFacts(ThresholdAnswer):
         ]
 
     @cached_property
-    def histogram(self) -> Bin:
+    def histogram(self) -> report.Bin:
         """Density over the reached poses, computed from the CDF so that it also works for binned distributions."""
         count = int(np.clip(2 * self.distribution.reached ** (1 / 3), 8, 40)) if self.distribution.values is not None else 40
         edges = (np.geomspace if self.is_logarithmic else np.linspace)(self.axis_values[0], self.axis_values[-1], count + 1)
         fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))
         width = np.diff(np.log10(edges)) if self.is_logarithmic else np.diff(edges)
         density_unit = "per decade" if self.is_logarithmic else self.unit_suffix and f"per{self.unit_suffix}"
-        return Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())
+        return report.Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())

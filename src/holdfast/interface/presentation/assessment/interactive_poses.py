@@ -7,13 +7,12 @@ import shlex
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.formatting import format_count
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.commands import format_task_option
-from holdfast.interface.report.figures import locate_axes
 from holdfast.interface.report.page import Block, Extra
 from holdfast.model import arms
 from holdfast.model.arms.spec import default_task
@@ -42,7 +41,7 @@ def choose_selectable_poses(facts: AssessmentFacts) -> NDArray[np.int64]:
     ]
 
 
-def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
+def blocks(facts: AssessmentFacts, figure: report.Figure) -> list[Block]:
     """Build the controls that select a pose in the figure of the views, which directly precedes them."""
     poses, chosen = facts.poses, choose_selectable_poses(facts)
     if poses is None or not len(chosen):
@@ -63,7 +62,7 @@ def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
         "failures": [_describe_failure(facts, index, label) for index, label in enumerate(facts.failure_labels)],
         "command": " ".join(["holdfast studio", shlex.quote(arm_spec), *words]),
         "views": [
-            {"frame": locate_axes(axes), "right": view.right.tolist(), "up": view.up.tolist()}
+            {"frame": report.locate_axes(axes), "right": view.right.tolist(), "up": view.up.tolist()}
             for axes, view in zip(figure.axes, facts.views, strict=False)
         ],
     }

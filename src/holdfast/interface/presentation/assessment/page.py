@@ -5,14 +5,11 @@ from __future__ import annotations
 from importlib import import_module
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.core.formatting import format_interval, format_percent, list_alternatives
-from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.sections import gain
-from holdfast.interface.report import figures as drawing
-from holdfast.interface.report import scenes
 from holdfast.interface.report.page import Callout, Section
 from holdfast.studies.assessment.single_points import explain
 
@@ -32,9 +29,8 @@ SECTION_TITLES = {
 }
 
 
-def build_sections(answer: ThresholdAnswer) -> list[Section]:
+def build_sections(facts: AssessmentFacts) -> list[Section]:
     """Build the sections of the report."""
-    facts = AssessmentFacts.extend_answer(answer)
     return [
         Section("", [_describe_single_points(facts)]),
         *[
@@ -80,24 +76,22 @@ def _describe_single_points(facts: AssessmentFacts) -> Callout:
     return Callout(text, "good")
 
 
-def draw_overview(answer: ThresholdAnswer) -> Figure:
+def draw_overview(facts: AssessmentFacts) -> report.Figure:
     """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
-    facts = AssessmentFacts.extend_answer(answer)
     view = facts.main_view
-    with drawing.style():
-        figure = Figure(figsize=(12, 5.2))
+    with report.styled_figure(12, 5.2) as figure:
         scene_axes, cdf_axes = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
-        spans, _ = scenes.fit_view_spans(scene, [view], 5.0, 4.1, 4.1)
-        scenes.draw_view(
-            scene_axes, scene, view, facts.color_scale, scenes.choose_dot_area(scene, [view], 5.0 / spans[0]), spans, 5.0
+        spans, _ = report.scenes.fit_view_spans(scene, [view], 5.0, 4.1, 4.1)
+        report.scenes.draw_view(
+            scene_axes, scene, view, facts.color_scale, report.scenes.choose_dot_area(scene, [view], 5.0 / spans[0]), spans, 5.0
         )
-        scene_axes.set_title(f"{drawing.format_label(facts.assessment.arm.name, 30)} and the region, {view.title.lower()}")
+        scene_axes.set_title(f"{report.format_label(facts.assessment.arm.name, 30)} and the region, {view.title.lower()}")
         if np.isfinite(scene.values).any():
-            scenes.add_color_bar(figure, scene, facts.color_scale, [scene_axes], facts.axis_label)
+            report.scenes.add_color_bar(figure, scene, facts.color_scale, [scene_axes], facts.axis_label)
         if facts.has_finite_values:
             optimised = facts.assessment.optimised
-            drawing.draw_cdf(
+            report.draw_cdf(
                 cdf_axes,
                 facts.curves if optimised is None or not optimised.reached else gain.build_gain_curves(facts, optimised),
                 facts.marks,
@@ -106,9 +100,9 @@ def draw_overview(answer: ThresholdAnswer) -> Figure:
                 log=facts.is_logarithmic,
             )
             cdf_axes.set_title(f"P({facts.condition}) = {format_interval(facts.probability)}" if facts.has_threshold else "")
-            drawing.legend_below(figure, cdf_axes, 2)
+            report.legend_below(figure, cdf_axes, 2)
         else:
             message = "the index is infinite everywhere" if facts.distribution.reached else "no configuration found"
-            cdf_axes.text(0.5, 0.5, message, ha="center", va="center", color=drawing.SOFT)
+            cdf_axes.text(0.5, 0.5, message, ha="center", va="center", color=report.SOFT)
             cdf_axes.set_axis_off()
-        return drawing.settle_layout(figure)
+    return figure

@@ -6,12 +6,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from holdfast.core.formatting import format_as_given, format_half_width, format_interval, insert_nonbreaking_spaces
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.report.figures import locate_axes
 from holdfast.interface.report.page import Block, Extra
 
 _STEP_COUNT = 100  # approximate number of steps, at round numbers
@@ -44,7 +43,7 @@ def choose_thresholds(axis: FloatArray, is_logarithmic: bool, threshold: float) 
     return np.unique([*candidates.tolist(), threshold])
 
 
-def blocks(facts: AssessmentFacts, figure: Figure) -> list[Block]:
+def blocks(facts: AssessmentFacts, figure: report.Figure) -> list[Block]:
     """Build the threshold slider for the figure of the distribution just before it."""
     if not facts.has_threshold:
         return []
@@ -85,7 +84,7 @@ def build_slider(
     facts: AssessmentFacts,
     threshold_values: FloatArray,
     answers: Mapping[str, Sequence[str]],
-    figure: Figure,
+    figure: report.Figure,
     curve_name: str,
     half_band: float,
     bars: tuple[list[str], FloatArray, str | Markup] = ([], np.zeros((0, 0)), ""),
@@ -110,7 +109,7 @@ def build_slider(
         "answers": list(answers.values()),
         "failures": failure_names,
         "missed": np.round(miss_fractions, 4).tolist(),
-        "frames": [locate_axes(axes) for axes in figure.axes],
+        "frames": [report.locate_axes(axes) for axes in figure.axes],
     }
     answer_rows = Markup("").join(
         Markup("<div><dt>{}</dt><dd><output data-row>{}</output></dd></div>").format(label, texts[start_step])

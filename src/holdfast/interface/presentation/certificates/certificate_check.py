@@ -26,11 +26,7 @@ def present(check: CertificateCheck) -> Presentation:
     proved = check.tolerant if check.parts else check.proved_fraction
     columns = [
         Header("lock", "lock of"),
-        Header("proved", "proved"),
-        Header("refuted", "refuted"),
-        Header("undecided", "undecided"),
-        Header("accepted", "accepted"),
-        Header("rejected", "rejected"),
+        *(Header(name, name) for name in ("proved", "refuted", "undecided", "accepted", "rejected")),
     ]
     rows = [
         [

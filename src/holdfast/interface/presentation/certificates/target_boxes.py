@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.proof import Proof, TolerantProof
 from holdfast.certificates.verifier import format_percent
 from holdfast.certificates.verifier_parts.tree import Cell
+from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.certificates.verification import (
     SCOPE_NOTE,
     add_legend,
@@ -20,12 +22,7 @@ from holdfast.interface.presentation.certificates.verification import (
     present_proof,
 )
 from holdfast.interface.presentation.presentation import FigureSpec, Presentation
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from holdfast.core.typing import FloatArray
+from holdfast.interface.report.palette import EMPTY_COLOR, INK, SKY
 
 _AXIS_LABELS = ("x [m]", "y [m]", "z [m]")
 
@@ -73,7 +70,7 @@ def present(proof: Proof | TolerantProof, check: CertificateCheck | None = None,
     )
 
 
-def _draw(proof: Proof | TolerantProof) -> Figure:
+def _draw(proof: Proof | TolerantProof) -> report.Figure:
     """Draw slices through the middle and through the most undecided plane, over all locks, lock angles, and orientations."""
     box = proof.claim.box[:3]
     cells = _undecided_cells(proof)
@@ -105,26 +102,19 @@ def _find_worst_height(box: FloatArray, cells: FloatArray) -> float:
     return float(box[2, 0] + fraction * (box[2, 1] - box[2, 0]))
 
 
-def _draw_slices(box: FloatArray, cells: FloatArray, slices: list[tuple[int, int, tuple[int, float] | None]]) -> Figure:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import SKY, WIDTH_IN, settle_layout, style
-
-    with style():
-        figure = Figure(figsize=(WIDTH_IN if len(slices) > 1 else WIDTH_IN / 2, 3.9), layout="constrained")
+def _draw_slices(box: FloatArray, cells: FloatArray, slices: list[tuple[int, int, tuple[int, float] | None]]) -> report.Figure:
+    with report.styled_figure(report.WIDTH_IN if len(slices) > 1 else report.WIDTH_IN / 2, 3.9) as figure:
         for axes, (first_axis, second_axis, fixed_axis) in zip(np.ravel(figure.subplots(1, len(slices))), slices, strict=True):
             _draw_slice(axes, box, cells, (first_axis, second_axis), fixed_axis)
         add_legend(figure, {"proved": SKY})
-        return settle_layout(figure)
+    return figure
 
 
 def _draw_slice(
-    axes: Axes, box: FloatArray, cells: FloatArray, across: tuple[int, int], fixed_axis: tuple[int, float] | None
+    axes: report.Axes, box: FloatArray, cells: FloatArray, across: tuple[int, int], fixed_axis: tuple[int, float] | None
 ) -> None:
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
-
-    from holdfast.interface.report.figures import EMPTY_COLOR, INK, SKY
 
     lower, widths = box[:, 0], box[:, 1] - box[:, 0]
     axis_pair = list(across)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.tool_paths.cells import SEGMENT_INSTANTS, LockSlab
 from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.certificates.verification import (
     add_legend,
     build_entries,
@@ -20,10 +21,7 @@ from holdfast.interface.presentation.certificates.verification import (
     present_proof,
 )
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, INK, ORANGE, SKY
 
 _MAX_PANEL_COLUMNS = 4  # panels in a row
 
@@ -107,17 +105,12 @@ def _format_undecided_intervals(proof: PathProof, part: LockedPath) -> str:
     return ", ".join(texts[:2]) + (f" and {len(texts) - 2} more" if len(texts) > 2 else "")
 
 
-def _draw(proof: PathProof) -> Figure:
+def _draw(proof: PathProof) -> report.Figure:
     """Draw the lock instants against the path, one panel for each lock."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import BLUE, ORANGE, SKY, WIDTH_IN, settle_layout, style
-
     column_count = min(_MAX_PANEL_COLUMNS, len(proof.parts))
     row_count = -(-len(proof.parts) // column_count)
-    width = WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS)
-    with style():
-        figure = Figure(figsize=(width, 2.7 * row_count + 0.7), layout="constrained")
+    width = report.WIDTH_IN * column_count / _MAX_PANEL_COLUMNS + 0.6 * (column_count < _MAX_PANEL_COLUMNS)
+    with report.styled_figure(width, 2.7 * row_count + 0.7) as figure:
         panels = np.ravel(figure.subplots(row_count, column_count, sharex=True, sharey=True, squeeze=False))
         for panel, part in zip(panels, proof.parts, strict=False):
             _draw_panel(panel, proof, part)
@@ -130,13 +123,11 @@ def _draw(proof: PathProof) -> Figure:
         for axes in panels[::column_count]:
             axes.set_ylabel("lock [knots]")
         add_legend(figure, {"proved to be finished": SKY, "proved with rotated cells": BLUE, "refuted": ORANGE})
-        return settle_layout(figure)
+    return figure
 
 
-def _draw_panel(axes: Axes, proof: PathProof, part: LockedPath) -> None:
+def _draw_panel(axes: report.Axes, proof: PathProof, part: LockedPath) -> None:
     from matplotlib.collections import LineCollection, PolyCollection
-
-    from holdfast.interface.report.figures import BLUE, EMPTY_COLOR, INK, ORANGE, SKY
 
     path_end = proof.claim.segments
 

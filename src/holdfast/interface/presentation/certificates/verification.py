@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from markupsafe import Markup
+
+from holdfast.certificates import WorkingRanges
 from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.joint_boxes.bounds import ManipulabilityBound
 from holdfast.certificates.joint_boxes.refutations import Refutation
 from holdfast.certificates.proof import BisectionResult, Proof, TolerantProof
 from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent, qualify_claim
+from holdfast.interface import report
+from holdfast.interface.presentation.certificates import working_ranges
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from matplotlib.figure import Figure
-
-    from holdfast.certificates import WorkingRanges
+from holdfast.interface.report.palette import EMPTY_COLOR, INK
 
 SCOPE_NOTE = "collisions, torques, speed. Assumptions: links are rigid, the geometry is that of the file, locks do not slip"
 UNVERIFIED_NOTE = "The prover found this proof; it is not yet verified."
@@ -110,7 +110,7 @@ def present_proof(
             Fact("cells examined", proof.nodes),
             Fact("search time", proof.seconds, "s", digits=3),
         ]
-    found_ranges = None if ranges is None else _present_ranges(ranges)
+    found_ranges = None if ranges is None else working_ranges.present(ranges)
     if found_ranges is not None:
         lines += [found_ranges.answer, *found_ranges.lines]
     return Presentation(
@@ -125,12 +125,6 @@ def present_proof(
         method=[*method, *_list_check_instructions(document, check, file)],
         arm=proof.claim.arm,
     )  # fmt: skip
-
-
-def _present_ranges(ranges: WorkingRanges) -> Presentation:
-    from holdfast.interface.presentation.certificates import working_ranges
-
-    return working_ranges.present(ranges)
 
 
 def _describe_verification(check: CertificateCheck | None, is_refuted: bool) -> str:
@@ -152,9 +146,7 @@ def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence
     checks = [None] * len(parts) if check is None else check.parts or (check,)
     columns = [
         Header("lock", "lock of"),
-        Header("proved", "proved"),
-        Header("refuted", "refuted"),
-        Header("undecided", "undecided"),
+        *(Header(name, name) for name in ("proved", "refuted", "undecided")),
         *[Header("gaps", "undecided between knots")] * bool(gaps),
         Header("cells", "cells"),
         Header("search", "search, s", digits=3),
@@ -194,8 +186,6 @@ def _list_check_instructions(
     document: Mapping[str, Any], check: CertificateCheck | None, file: str | Path
 ) -> list[tuple[str, Any]]:
     """List the digest, the command that checks the certificate, and the versions of the verifier."""
-    from markupsafe import Markup
-
     code = Markup("<code>{}</code>")
     entries: list[tuple[str, Any]] = [
         ("Command that checks it", code.format(f"holdfast certificate check {file}")),
@@ -207,12 +197,8 @@ def _list_check_instructions(
     return entries
 
 
-def add_legend(figure: Figure, colors: Mapping[str, str]) -> None:
+def add_legend(figure: report.Figure, colors: Mapping[str, str]) -> None:
     """Add a legend below a figure, with the color of each label and the hatching for undecided parts."""
-    from matplotlib.patches import Patch
-
-    from holdfast.interface.report.figures import EMPTY_COLOR, INK
-
-    patches = [Patch(facecolor=color, edgecolor=INK, linewidth=0.6, label=label) for label, color in colors.items()]
-    patches.append(Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"))
+    patches = [report.Patch(facecolor=color, edgecolor=INK, linewidth=0.6, label=label) for label, color in colors.items()]
+    patches.append(report.Patch(facecolor=EMPTY_COLOR, edgecolor=INK, hatch="////", linewidth=0.3, label="undecided"))
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))

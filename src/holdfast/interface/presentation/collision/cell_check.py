@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from holdfast.model.collision.cell_check import CellCheck, CheckedObject
+from holdfast.model.collision.cell_check import CellCheck, CheckedObject
 
 
 def to_dict(check: CellCheck) -> dict[str, Any]:
@@ -67,8 +66,6 @@ def present(check: CellCheck) -> Presentation:
         Header("excess", "largest distance error, mm"),
         *([Header("touching", "touched in", style="percent")] if check.arm else []),
     ]
-    from markupsafe import Markup
-
     return Presentation(
         "Check of a cell",
         answer,

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.formatting import format_count
+from holdfast.model.cell.cell import Cell
+from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
-
-if TYPE_CHECKING:
-    from holdfast.model.cell.cell import Cell
-    from holdfast.model.collision.clearance import Clearance
 
 
 def summarize_shape(clearance: Clearance, margin: float) -> dict[str, Any]:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.control.laws.trade_offs import QUANTILE_LEVELS, TradeOff
 from holdfast.core.formatting import format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from holdfast.interface.report.palette import ORANGE
 
 _NEGLIGIBLE_GAIN = 0.005  # relative gain that counts as none
 _PLATEAU_TOLERANCE = 1e-3  # relative difference in gain that does not justify a larger allowed error
@@ -95,24 +94,11 @@ def present(curve: TradeOff) -> Presentation:
     )
 
 
-def _draw_figure(curve: TradeOff) -> Figure:
+def _draw_figure(curve: TradeOff) -> report.Figure:
     """Draw the median and quantile bands of the error after a failure and of the error of the healthy arm."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import (
-        ORANGE,
-        WIDTH_IN,
-        draw_quantile_bands,
-        format_label,
-        legend_below,
-        settle_layout,
-        style,
-    )
-
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.9))
+    with report.styled_figure(report.WIDTH_IN, 3.9) as figure:
         gain, cost = figure.subplots(1, 2)
-        title_prefix = format_label(f"{curve.arm.name}, {curve.task.name}", 30)
+        title_prefix = report.format_label(f"{curve.arm.name}, {curve.task.name}", 30)
         measures = zip(
             (gain, cost),
             ("gain", "healthy_error"),
@@ -121,10 +107,10 @@ def _draw_figure(curve: TradeOff) -> Figure:
             strict=True,
         )
         for axes, measure_name, ylabel, title in measures:
-            draw_quantile_bands(axes, curve.allowed, curve.quantiles(measure_name))
+            report.draw_quantile_bands(axes, curve.allowed, curve.quantiles(measure_name))
             axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, curve.allowed[-1]))
             axes.set_ylim(0, 1.02)
             axes.set_title(title)
         cost.plot(curve.allowed, curve.allowed, color=ORANGE, linestyle=(0, (4.5, 2)), label="allowed error")
-        legend_below(figure, cost, 4)
-        return settle_layout(figure)
+        report.legend_below(figure, cost, 4)
+    return figure

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.control.convergence.law_choice import LawChoice
 from holdfast.core.formatting import format_count, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence import maps
 from holdfast.interface.presentation.convergence.shares import format_points, rank_successes
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MAX_TITLE_LENGTH = 24  # characters of a title
 save = partial(renderers.save, dpi=130)
@@ -88,7 +86,7 @@ def present(choice: LawChoice) -> Presentation:
     )
 
 
-def _draw_outcomes(choice: LawChoice) -> Figure:
+def _draw_outcomes(choice: LawChoice) -> report.Figure:
     titles = [
         name if len(name) <= _MAX_TITLE_LENGTH else law_map.law.label
         for name, law_map in zip(choice.names, choice.maps, strict=True)

@@ -5,22 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from holdfast.control.convergence.law_comparison import HEALTHY_CASE, LawComparison
+from holdfast.control.convergence.law_comparison import ANY_JOINT, HEALTHY_CASE, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.files.csv_table import write_rows
-from holdfast.core.formatting import format_count, format_number, format_percent
+from holdfast.core.formatting import capitalise_first, format_count, format_number, format_percent
+from holdfast.core.probability.intervals import Difference
+from holdfast.interface import report
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.law_tables import (
+    OUTCOME_NAMES,
     build_contact_table,
     build_cost_table,
     build_detail_table,
     build_gain_table,
     build_outcome_table,
+    get_time_unit,
     tabulate_gains,
     tabulate_healthy_costs,
     tabulate_runs,
@@ -28,10 +32,12 @@ from holdfast.interface.presentation.convergence.law_tables import (
 from holdfast.interface.presentation.convergence.shares import rank_successes
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 _NOTABLE_UNDECIDED_FRACTION = 0.05
+_COST_MEASURES = (
+    ("deviation", "distance from the line, m", 1.0),
+    ("angle", "largest angle, deg", 180 / np.pi),
+    ("time", "time to the target, {unit}", 1.0),
+)
 _GAIN_METHOD = (
     "Paired over the same motions, with 95 % intervals. One joint: Newcombe's method for paired proportions with exact limits, "
     "and McNemar's test. Any joint: a betting interval of the mean over the joints of each motion, whose coverage is "
@@ -84,16 +90,22 @@ def present(comparison: LawComparison) -> Presentation:
         "healthy.csv": tabulate_healthy_costs(comparison),
         "runs.csv": tabulate_runs(comparison),
     }
-    figures = {"outcomes": _figure(comparison, "draw_law_outcomes", "Outcomes by locked joint", _OUTCOME_CAPTION)}
+    figures = {
+        "outcomes": FigureSpec(
+            partial(_draw_law_outcomes, comparison), "Outcomes by locked joint", _OUTCOME_CAPTION, saved=False
+        )
+    }
     if can_compare(comparison):
         gains = tabulate_gains(comparison)
         files["gains.csv"] = gains
         tables.append(build_gain_table(comparison, gains))
         caption = f"Paired differences from {names[0]} over {motions}. Lines are 95 % intervals."
-        figures["gains"] = _figure(comparison, "draw_law_gains", f"Differences from {names[0]}", caption)
+        figures["gains"] = FigureSpec(
+            partial(_draw_law_gains, comparison), f"Differences from {names[0]}", caption, saved=False
+        )
     if comparison.joints:
         caption = f"{format_count(len(comparison) * len(comparison.joints), 'run')} of each law; all joints weigh the same."
-        figures["errors"] = _figure(comparison, "draw_law_errors", "Errors at the end", caption)
+        figures["errors"] = FigureSpec(partial(_draw_law_errors, comparison), "Errors at the end", caption, saved=False)
     method: list[tuple[str, str]] = [("Motions", comparison.about or "given by the user")]
     method += [(name, law.describe()) for name, law in zip(names, laws, strict=True)]
     first_run = comparison.runs[0]
@@ -119,7 +131,7 @@ def present(comparison: LawComparison) -> Presentation:
             "converge under every law with no joint locked, each at 65 samples."
         )
         title = "Cost while the arm is healthy"
-        figures["healthy"] = _figure(comparison, "draw_healthy_costs", title, caption)
+        figures["healthy"] = FigureSpec(partial(_draw_healthy_costs, comparison), title, caption, saved=False)
     else:
         lines.append("No motion converges under every law while the arm is healthy, so there is no cost to compare.")
     reasons = {
@@ -140,18 +152,6 @@ def present(comparison: LawComparison) -> Presentation:
         arm=arm,
         exports={name: partial(_write_csv, rows) for name, rows in files.items()},
     )
-
-
-def _figure(comparison: LawComparison, function: str, title: str, caption: str) -> FigureSpec:
-    """Describe a figure that a function of ``law_figures`` draws; that module imports matplotlib."""
-
-    def draw() -> Figure:
-        from holdfast.interface.presentation.convergence import law_figures
-
-        figure: Figure = getattr(law_figures, function)(comparison)
-        return figure
-
-    return FigureSpec(draw, title, caption, saved=False)
 
 
 def _list_notices(comparison: LawComparison) -> list[Notice]:
@@ -235,3 +235,96 @@ def can_compare(comparison: LawComparison) -> bool:
 
 def _write_csv(rows: Sequence[dict[str, Any]], path: Path) -> None:
     write_rows(path, list(rows[0]), ([row[name] for name in rows[0]] for row in rows))
+
+
+# ---- figures -------------------------------------------------------------------------------------------------------------
+
+
+def _draw_law_outcomes(comparison: LawComparison) -> report.Figure:
+    """Draw stacked bars of the outcomes, with a group for each failure and a bar for each law."""
+    stacks = []
+    for failure in comparison.failures:
+        cases = [comparison.case(name, failure) for name in comparison.names]
+        shares = np.array([[case.has_outcome(outcome).mean() for outcome in OUTCOME_NAMES] for case in cases])
+        intervals = [case.share() for case in cases]
+        lower, upper = (
+            np.array([getattr(interval, bound) if interval else np.nan for interval in intervals]) for bound in ("low", "high")
+        )
+        stacks.append(
+            report.Stack(
+                name=failure,
+                bars=comparison.names,
+                shares=shares,
+                low=lower,
+                high=upper,
+                level=float(cases[0].reachable.mean()),
+            )
+        )
+    return report.stack_figure(
+        stacks, OUTCOME_NAMES, f"fraction of the {len(comparison):,} motions", level="targets still within reach"
+    )
+
+
+def _draw_law_gains(comparison: LawComparison) -> report.Figure:
+    """Draw the paired differences to the first law, by joint."""
+    failures = [*comparison.joints, ANY_JOINT]
+
+    def make_gains(name: str, differences: list[Difference], factor: float = 1.0) -> report.Gains:
+        value, lower, upper = (
+            factor * np.array([getattr(difference, attribute) for difference in differences])
+            for attribute in ("value", "low", "high")
+        )
+        return report.Gains(label=name, value=value, low=lower, high=upper)
+
+    converged_gains = [
+        make_gains(name, [comparison.gain(name, failure) for failure in failures]) for name in comparison.names[1:]
+    ]
+    error_panels = [
+        (
+            f"{kind.name.partition('_')[0]} error, {kind.unit}",
+            [
+                make_gains(name, [comparison.change(name, kind.name, failure) for failure in failures], kind.factor)
+                for name in comparison.names[1:]
+            ],
+        )
+        for kind in error_kinds(comparison.laws[0])
+    ]
+    return report.gain_figure(failures, [("fraction that converges", converged_gains), *error_panels])
+
+
+def _draw_law_errors(comparison: LawComparison) -> report.Figure:
+    """Draw cumulative distributions of the errors at the end, in mm and degrees, over all joints; with one unit also their
+    excess.
+    """
+    kinds = error_kinds(comparison.laws[0])
+    quantities: list[tuple[str, str, float]] = [
+        (kind.name, f"{capitalise_first(kind.text)} at the end, {kind.unit}", kind.factor) for kind in kinds
+    ]
+    if len(kinds) == 1:
+        quantities.append(("excess", f"Error above the smallest possible, {kinds[0].unit}", kinds[0].factor))
+    panels = []
+    for quantity, title, factor in quantities:
+        samples = [factor * comparison.pool_values(name, quantity).ravel() for name in comparison.names]
+        axis_values = np.geomspace(
+            1e-5 * factor, 1.2 * max(float(np.nanmax(sample, initial=1e-3 * factor)) for sample in samples), 400
+        )
+        curves = []
+        for name, values in zip(comparison.names, samples, strict=True):
+            finite = np.sort(values[np.isfinite(values)])
+            curves.append(
+                report.Curve(axis_values, np.searchsorted(finite, axis_values, side="right") / max(len(values), 1), name)
+            )
+        panels.append((title, curves))
+    unit_text = " or ".join(kind.unit for kind in kinds)
+    return report.compare_cdf_figure(
+        panels, [], f"error, {unit_text}", ylabel="fraction of runs with at most this error", log=True
+    )
+
+
+def _draw_healthy_costs(comparison: LawComparison) -> report.Figure:
+    """Draw quantiles of the cost of each law for the healthy arm."""
+    spreads = []
+    for measure, label, factor in _COST_MEASURES:
+        quantiles = factor * np.array([comparison.cost(name, measure) for name in comparison.names])  # type: ignore[arg-type]
+        spreads.append(report.Spread(label.format(unit=get_time_unit(comparison)), quantiles))
+    return report.spread_figure(comparison.names, spreads)

@@ -5,23 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.control.convergence.maps import ConvergenceMap
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
 from holdfast.interface.presentation.convergence.shares import format_range
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.outcomes import Stack
 
 save = partial(renderers.save, dpi=130)
 _END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
@@ -192,17 +188,13 @@ def _write_csv(result: ConvergenceMap, path: Path) -> None:
     write_place_table(path, result.places, columns, values)
 
 
-def draw_map_outcomes(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
+def draw_map_outcomes(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> report.Figure:
     """Draw the outcomes of the motions as one bar for each locked joint and each map."""
-    from holdfast.interface.report.outcomes import stack_figure
-
     stacks = [_build_outcome_stack(title, convergence_map) for title, convergence_map in zip(titles, maps, strict=True)]
-    return stack_figure(stacks, _ENDING_LABELS, "fraction of the motions", caption=_compose_caption(maps[0], len(maps)))
+    return report.stack_figure(stacks, _ENDING_LABELS, "fraction of the motions", caption=_compose_caption(maps[0], len(maps)))
 
 
-def _build_outcome_stack(title: str, result: ConvergenceMap) -> Stack:
-    from holdfast.interface.report.outcomes import Stack
-
+def _build_outcome_stack(title: str, result: ConvergenceMap) -> report.Stack:
     bar_labels = [f"{name} locked" for name in result.columns[:-1]] + ["no joint locked"]
     converged = result.shares("converged")
     trapped = np.array([share.value for share in result.shares("trapped").values()])
@@ -210,7 +202,7 @@ def _build_outcome_stack(title: str, result: ConvergenceMap) -> Stack:
         np.array([getattr(share, bound) for share in converged.values()]) for bound in ("value", "low", "high")
     )
     stuck, moving = _compute_unreachable_fractions(result, "stuck"), _compute_unreachable_fractions(result, "moving")
-    return Stack(
+    return report.Stack(
         name=title,
         bars=bar_labels,
         shares=np.column_stack([converged_values, trapped, stuck, moving, 1 - converged_values - trapped - stuck - moving]),

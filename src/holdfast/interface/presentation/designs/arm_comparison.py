@@ -22,10 +22,7 @@ def to_dict(comparison: ArmComparison) -> dict[str, Any]:
         "level": comparison.level,
         "columns": [
             {
-                "measure": column.measure,
-                "name": column.name,
-                "unit": column.unit,
-                "samples": column.samples,
+                **{attribute: getattr(column, attribute) for attribute in ("measure", "name", "unit", "samples")},
                 "values": comparison.values[:, index].tolist(),
                 "low": comparison.low[:, index].tolist(),
                 "high": comparison.high[:, index].tolist(),

@@ -5,14 +5,16 @@ from __future__ import annotations
 import shlex
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import capitalise_first, format_percent
 from holdfast.core.probability.intervals import Difference, Interval
+from holdfast.interface import report
 from holdfast.interface.presentation.convergence.shares import format_points
+from holdfast.interface.presentation.designs.figures import draw_parameters
 from holdfast.interface.presentation.designs.parameters import (
     ARM_FILE,
     build_arm_section,
@@ -20,13 +22,9 @@ from holdfast.interface.presentation.designs.parameters import (
     tabulate_parameters,
 )
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec, format_value
+from holdfast.interface.report.page import Block, Code, Section
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Block, Section
 
 _MEASURE_MEANINGS = {
     "guaranteed": "fraction of the targets, by area, that the arm reaches after every lock that leaves them within reach",
@@ -152,10 +150,8 @@ def _compose_answer(designs: ConvergenceDesigns) -> str:
     return f"{text} It is the {_MEASURE_MEANINGS[name]}."
 
 
-def _draw_parameters(designs: ConvergenceDesigns) -> Figure:
+def _draw_parameters(designs: ConvergenceDesigns) -> report.Figure:
     """Draw the value of each design against each parameter."""
-    from holdfast.interface.presentation.designs.figures import draw_parameters
-
     factors = np.array([parameter.display_unit[0] for parameter in designs.space.parameters])
     names = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in designs.space.parameters]
     values = _objective_values(designs)
@@ -169,8 +165,6 @@ def _build_sections(designs: ConvergenceDesigns) -> list[Section]:
 
 
 def _build_rerun_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    from holdfast.interface.report.page import Code
-
     command_line, remark = format_command(designs)
     return [Code(command_line, remark and f"{capitalise_first(remark)}:")]
 

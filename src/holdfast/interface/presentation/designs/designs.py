@@ -6,14 +6,17 @@ import csv
 import math
 from functools import partial
 from pathlib import Path
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.files.output import open_replacement, replace_file
 from holdfast.core.formatting import format_count, format_number, format_percent, indefinite_article, list_alternatives
+from holdfast.interface import report
+from holdfast.interface.presentation.commands import format_region_file
+from holdfast.interface.presentation.designs import sections
+from holdfast.interface.presentation.designs.figures import draw_before_and_after, draw_pareto_front
 from holdfast.interface.presentation.designs.parameters import ARM_FILE, list_bound_notices, tabulate_parameters
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.designs import (
@@ -24,10 +27,6 @@ from holdfast.studies.designs.designs import (
     format_level,
     format_value_interval,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 _MAX_FRONT_DESIGNS = 10  # designs of the Pareto front in the table
 _NOTABLE_LOSS = 0.005  # fraction of the poses
@@ -141,10 +140,10 @@ def present(designs: Designs) -> Presentation:
             _tabulate_front(designs),
         ],
         figures=figures,
-        sections=lambda: _import_sections().build_sections(designs),
+        sections=partial(sections.build_sections, designs),
         method=_list_methods(designs),
         arm=space.arm,
-        again=lambda: _import_sections().build_rerun_blocks(designs),
+        again=partial(sections.build_rerun_blocks, designs),
         exports=exports | _list_region_files(designs),
     )
 
@@ -245,28 +244,16 @@ def _choose_front_designs(front: NDArray[np.int64], best: int) -> list[int]:
     return [int(front[index]) for index in sorted(positions)]
 
 
-def _draw_front(designs: Designs) -> Figure:
+def _draw_front(designs: Designs) -> report.Figure:
     """Draw all designs by reach and quantile of the index."""
-    from holdfast.interface.presentation.designs.figures import draw_pareto_front
-    from holdfast.interface.report.figures import format_label
-
-    label = format_label(f"{designs.index.name} of {format_level(designs.level)} of the poses, at least")
+    label = report.format_label(f"{designs.index.name} of {format_level(designs.level)} of the poses, at least")
     baseline = (designs.start_reach, designs.start_guaranteed)
     front = designs.front.tolist()
     return draw_pareto_front(designs.reach, designs.guaranteed, front, designs.best, baseline, label, designs.index.bound)
 
 
-def _draw_arms(designs: Designs) -> Figure:
-    from holdfast.interface.presentation.designs.figures import draw_before_and_after
-
+def _draw_arms(designs: Designs) -> report.Figure:
     return draw_before_and_after(designs.space.arm, designs.arm(designs.best), designs.index.task, designs.region, designs.seed)
-
-
-def _import_sections() -> ModuleType:
-    """Import the sections of the page on demand, because they import matplotlib."""
-    from holdfast.interface.presentation.designs import sections
-
-    return sections
 
 
 def _list_methods(designs: Designs) -> list[tuple[str, str]]:
@@ -298,8 +285,6 @@ def _list_region_files(designs: Designs) -> dict[str, Any]:
         return {}
 
     def write_region(path: Path) -> None:
-        from holdfast.interface.presentation.commands import format_region_file
-
         replace_file(path, format_region_file(region) + "\n")
 
     files: dict[str, Any] = {"region.yaml": write_region}
@@ -309,7 +294,7 @@ def _list_region_files(designs: Designs) -> dict[str, Any]:
 
 
 def _write_arm(designs: Designs, path: Path) -> None:
-    replace_file(path, _import_sections().format_arm_file(designs))
+    replace_file(path, sections.format_arm_file(designs))
 
 
 def _write_designs(designs: Designs, path: Path) -> None:

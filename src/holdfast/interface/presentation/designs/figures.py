@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import choose_views
-from holdfast.interface.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH_IN, format_label, settle_layout, style
-from holdfast.interface.report.scenes import Scale, Scene, draw_view, fit_view_spans
+from holdfast.interface.report.palette import BLUE, INK, ORANGE, SKY, SOFT
 from holdfast.kinematics.regions.region import Region
 from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.model.arm.model import Arm
@@ -27,7 +24,7 @@ def draw_pareto_front(
     baseline: tuple[float, float] | None,
     label: str,
     bound: float | None,
-) -> Figure:
+) -> report.Figure:
     """Draw every design by its reach and its index quantile, with the Pareto front.
 
     Args:
@@ -39,8 +36,7 @@ def draw_pareto_front(
         label: Label of the axis of the quantiles.
         bound: Upper bound of the index; drawn only if it is near the values. None if not known.
     """
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 4.6))
+    with report.styled_figure(report.WIDTH_IN, 4.6) as figure:
         axes = figure.add_subplot()
         axes.scatter(reach, quantiles, s=14, color=SKY, linewidths=0, rasterized=True)
         front_rows = np.asarray(front, dtype=int)
@@ -65,16 +61,16 @@ def draw_pareto_front(
         axes.set_ylim(bottom=0.0)
         axes.margins(y=0.1)
         handles = [
-            Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs"),
-            Line2D([], [], marker="o", color=BLUE, markersize=5, label="Pareto front"),
-            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
-            Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="best design"),
+            report.Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs"),
+            report.Line2D([], [], marker="o", color=BLUE, markersize=5, label="Pareto front"),
+            report.Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
+            report.Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="best design"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
-        return settle_layout(figure)
+    return figure
 
 
-def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
+def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> report.Figure:
     """Draw the baseline arm and the best one on the same scale, with the tool at the region centre if the arm reaches it."""
     box = None
     if region.kind == "box":
@@ -85,7 +81,7 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
     for arm in (baseline, best):
         joint_positions = arm.frames(_choose_configuration(arm, task, region, seed))[:, :3, 3]
         scenes.append(
-            Scene(
+            report.Scene(
                 no_points,
                 np.zeros(0),
                 no_points,
@@ -98,19 +94,18 @@ def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, 
     view = choose_views(baseline, np.concatenate([scene.chain for scene in scenes]))[0]
     # Both panels show the same part of the world.
     extents = np.concatenate([s.extent for s in scenes])
-    common_scene = Scene(extents, np.full(len(extents), np.nan), no_points)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 5.4))
-        panels: Sequence[Axes] = figure.subplots(1, 2)
-        spans, height = fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
+    common_scene = report.Scene(extents, np.full(len(extents), np.nan), no_points)
+    with report.styled_figure(report.WIDTH_IN, 5.4) as figure:
+        panels: Sequence[report.Axes] = figure.subplots(1, 2)
+        spans, height = report.scenes.fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
         middle = view.project(common_scene.extent.mean(axis=0))
         for axes, scene, title in zip(panels, scenes, ("before: " + baseline.name, "after: " + best.name), strict=True):
-            draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
+            report.scenes.draw_view(axes, scene, view, report.Scale(0.0, 1.0), 1.0, spans, 4.4)
             axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
             axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
-            axes.set_title(format_label(title, 44))
-        return settle_layout(figure)
+            axes.set_title(report.format_label(title, 44))
+    return figure
 
 
 def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> FloatArray:
@@ -127,7 +122,7 @@ def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> Fl
 
 def draw_parameters(
     names: Sequence[str], values: FloatArray, quantiles: FloatArray, baseline: tuple[FloatArray, float] | None, label: str
-) -> Figure:
+) -> report.Figure:
     """Draw the index quantile against each parameter, one panel for each parameter.
 
     Args:
@@ -139,8 +134,7 @@ def draw_parameters(
     """
     column_count = 2 if len(names) == 4 else min(3, len(names))
     row_count = -(-len(names) // column_count)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.5 * row_count + 0.5))
+    with report.styled_figure(report.WIDTH_IN, 2.5 * row_count + 0.5) as figure:
         panels = figure.subplots(row_count, column_count, squeeze=False, sharey=True)
         for index, axes in enumerate(panels.flat):
             if index >= len(names):
@@ -149,11 +143,11 @@ def draw_parameters(
             axes.scatter(values[:, index], quantiles, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
             if baseline is not None:
                 axes.plot(baseline[0][index], baseline[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
-            axes.set(xlabel=format_label(names[index]), ylim=(0, None))
+            axes.set(xlabel=report.format_label(names[index]), ylim=(0, None))
         figure.supylabel(label, fontsize=9.5)
         handles = [
-            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="design"),
-            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
+            report.Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="design"),
+            report.Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="baseline arm"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
-        return settle_layout(figure)
+    return figure

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+
+from markupsafe import Markup
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.presentation import Header, Notice, TableSpec
+from holdfast.interface.presentation.renderers import build_table_block
+from holdfast.interface.report.page import Block, Code, Section, Text
 from holdfast.studies.designs.space import DesignParameter, DesignSpace
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Block, Section
 
 ARM_FILE = "best-arm.yaml"
 _BOUND_TOLERANCE = 1e-6  # fraction of the distance between the bounds
@@ -76,11 +76,6 @@ def build_arm_section(
     space: DesignSpace, best: FloatArray, arm_file: str, remark: str, further_blocks: Sequence[Block] = ()
 ) -> Section:
     """Build the section with the parameters of the best design (k,), and its arm file, which every command accepts."""
-    from markupsafe import Markup
-
-    from holdfast.interface.presentation.renderers import build_table_block
-    from holdfast.interface.report.page import Code, Section, Text
-
     table = build_table_block(tabulate_parameters(space, best).texts())
     label = Markup("File of the best arm, <code>{}</code>, which every command accepts as ARM:").format(ARM_FILE)
     return Section("Best design", [table, Code(arm_file.rstrip(), label), Text(remark, quiet=True), *further_blocks])

@@ -8,6 +8,7 @@ import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.commands import (
     build_region_file_blocks,
     format_failures_option,
@@ -15,7 +16,6 @@ from holdfast.interface.presentation.commands import (
     wrap_command,
 )
 from holdfast.interface.presentation.designs.parameters import ARM_FILE, build_arm_section
-from holdfast.interface.report import figures as drawing
 from holdfast.interface.report.page import Block, Code, Picture, Section, Text
 from holdfast.model import arms
 from holdfast.model.arms.dh_file import format_dh_file
@@ -45,23 +45,23 @@ def _build_distribution_blocks(designs: Designs) -> list[Block]:
     if not extremes:
         return [Text("Neither arm reaches any pose of the region.")]
     bound = designs.index.bound
-    marks = [drawing.Mark(bound, f"no configuration can exceed {bound:.3f}", "bound")] if bound else []
+    marks = [report.Mark(bound, f"no configuration can exceed {bound:.3f}", "bound")] if bound else []
     axis_values = np.linspace(0.0, 1.04 * max(*extremes, *[mark.x for mark in marks]), 801)
     curves = [_make_curve(checked, name, axis_values) for checked, name in ((best, "best design"), (baseline, "baseline arm"))]
     unit_text = "" if designs.index.unit == "1" else f", {designs.index.unit}"
-    label = drawing.format_label(f"worst-case {designs.index.name}{unit_text}")
-    figure = drawing.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
+    label = report.format_label(f"worst-case {designs.index.name}{unit_text}")
+    figure = report.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
     explanation = (
         f"{best.distribution.samples:,} held-out poses of the region, each at its best configuration; a pose that is not "
         f"reached counts as 0. A curve crosses {format_level(1 - designs.level)} at the quantile in the table."
     )
-    return [Picture(drawing.svg(figure, "cdf", "Cumulative distributions of baseline arm and best design"), explanation)]
+    return [Picture(report.svg(figure, "cdf", "Cumulative distributions of baseline arm and best design"), explanation)]
 
 
-def _make_curve(checked: HeldOutResult, name: str, axis_values: FloatArray) -> drawing.Curve:
+def _make_curve(checked: HeldOutResult, name: str, axis_values: FloatArray) -> report.Curve:
     band = checked.distribution.band()
-    label = f"{drawing.format_label(name, 40)}, 95 % band ±{band:.3f}"
-    return drawing.Curve(axis_values, checked.distribution.cdf(axis_values), label, second=name == "baseline arm", band=band)
+    label = f"{report.format_label(name, 40)}, 95 % band ±{band:.3f}"
+    return report.Curve(axis_values, checked.distribution.cdf(axis_values), label, second=name == "baseline arm", band=band)
 
 
 def format_arm_file(designs: Designs) -> str:

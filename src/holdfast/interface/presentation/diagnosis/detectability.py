@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
 from holdfast.response.diagnosis.detectability.observability import Observability
 from holdfast.response.diagnosis.detectability.probe import Identification, ProbingMotion
 from holdfast.response.diagnosis.detectability.separation import LOG_LIKELIHOOD_THRESHOLD
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MAX_NAME_LETTERS = 24  # characters of a name
 _MIN_VISIBLE_RATE = 1e-6  # fraction of a unit rate
@@ -152,19 +150,14 @@ def _tabulate_joints(result: Observability | ProbingMotion) -> TableSpec:
     return TableSpec(f"Candidate joints, {remark}", columns, rows)
 
 
-def _draw_separation(result: Observability | ProbingMotion) -> Figure:
+def _draw_separation(result: Observability | ProbingMotion) -> report.Figure:
     """Draw a square for each pair of hypotheses."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report import figures as style
-
     joints = result.suspects if isinstance(result, ProbingMotion) else range(result.arm.n)
     hypotheses = [0, *(row + 1 for row in joints)]
-    names = ["none", *(style.format_label(result.arm.joint_names[row], _MAX_NAME_LETTERS) for row in joints)]
+    names = ["none", *(report.format_label(result.arm.joint_names[row], _MAX_NAME_LETTERS) for row in joints)]
     separations = result.separation[np.ix_(hypotheses, hypotheses)]
     count = len(hypotheses)
-    with style.style():
-        figure = Figure(figsize=(2.6 + 0.75 * count, 1.6 + 0.5 * count))
+    with report.styled_figure(2.6 + 0.75 * count, 1.6 + 0.5 * count) as figure:
         axes = figure.subplots()
         matrix = np.ma.masked_array(np.minimum(separations, 3 * LOG_LIKELIHOOD_THRESHOLD), np.eye(count, dtype=bool))
         mesh = axes.pcolormesh(
@@ -173,7 +166,7 @@ def _draw_separation(result: Observability | ProbingMotion) -> Figure:
         for row, column in zip(*np.nonzero(~np.eye(count, dtype=bool)), strict=True):
             is_weak = not separations[row, column] > LOG_LIKELIHOOD_THRESHOLD
             color = (
-                style.ORANGE if is_weak else "white" if separations[row, column] > 2 * LOG_LIKELIHOOD_THRESHOLD else style.INK
+                report.ORANGE if is_weak else "white" if separations[row, column] > 2 * LOG_LIKELIHOOD_THRESHOLD else report.INK
             )
             label = (
                 "> 999"
@@ -198,4 +191,4 @@ def _draw_separation(result: Observability | ProbingMotion) -> Figure:
         axes.grid(visible=False)
         axes.set(title="Separation of the hypotheses", xlim=(0, count))
         figure.colorbar(mesh, ax=axes, label="log-likelihood ratio")
-        return style.settle_layout(figure)
+    return figure

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_seconds
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.diagnosis.bounds import present as present_bounds
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
 from holdfast.response.diagnosis.answer import Diagnosis
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _KIND_PHRASES = {
     "locked": "is locked",
@@ -128,22 +126,17 @@ def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
     return TableSpec("Largest residuals, divided by their thresholds", columns, rows)
 
 
-def _draw_residuals(diagnosis: Diagnosis) -> Figure:
+def _draw_residuals(diagnosis: Diagnosis) -> report.Figure:
     """Draw a panel for each monitored level."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report import figures as style
-
     names, verdict = [name for name in _PANEL_TITLES if name in diagnosis.signals.levels], diagnosis.verdict
     joints = diagnosis.arm.joint_names
-    with style.style():
-        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 0.6 + 1.9 * len(names)))
+    with report.styled_figure(1.25 * report.WIDTH_IN, 0.6 + 1.9 * len(names)) as figure:
         panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
         for name, axes in zip(names, panels, strict=True):
             values = getattr(diagnosis.scaled, name).reshape(len(diagnosis.log.t), -1)
             for joint, column in enumerate(values.T):
                 is_blamed = name != "tool" and joints[joint] == verdict.joint
-                color = style.ORANGE if is_blamed else style.BLUE if name == "tool" else style.SKY
+                color = report.ORANGE if is_blamed else report.BLUE if name == "tool" else report.SKY
                 times, residuals = _thin_samples(diagnosis.log.t, column)
                 label = joints[joint] if is_blamed else None
                 axes.plot(
@@ -155,10 +148,10 @@ def _draw_residuals(diagnosis: Diagnosis) -> Figure:
                     zorder=2 + is_blamed,
                 )
             for interval in diagnosis.gaps:
-                axes.axvspan(*interval, color=style.EMPTY_COLOR, linewidth=0, zorder=4)  # above the lines that bridge the gap
-            axes.axhline(1.0, color=style.INK, linewidth=1.0, linestyle="--")
+                axes.axvspan(*interval, color=report.EMPTY_COLOR, linewidth=0, zorder=4)  # above the lines that bridge the gap
+            axes.axhline(1.0, color=report.INK, linewidth=1.0, linestyle="--")
             if verdict.alarm:
-                axes.axvline(verdict.time, color=style.INK, linewidth=1.0)
+                axes.axvline(verdict.time, color=report.INK, linewidth=1.0)
                 if axes is panels[0]:
                     axes.text(
                         verdict.time, 1.02, f" alarm, {verdict.time:.3f} s", transform=axes.get_xaxis_transform(), fontsize=8
@@ -167,7 +160,7 @@ def _draw_residuals(diagnosis: Diagnosis) -> Figure:
             if verdict.joint is not None and name != "tool":
                 axes.legend(loc="lower left", fontsize=8)
         panels[-1].set(xlabel="time, s", xlim=(diagnosis.log.t[0], diagnosis.log.t[-1]))
-        return style.settle_layout(figure)
+    return figure
 
 
 def _thin_samples(t: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count, format_number
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.response.diagnosis.recordings.examination import Examination, ExaminedEpisode, examined_frames, frame_stride
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MAX_ALARM_FIGURES = 12
 _KIND_PHRASES = {
@@ -144,12 +142,8 @@ def _tabulate(examination: Examination) -> list[TableSpec]:
     ]
 
 
-def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> Figure:
+def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> report.Figure:
     """Draw reference, prediction, and position of the joint; for the whole arm, of the joint that moved most."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report import figures as style
-
     recording, healthy = examination.recording, examination.healthy
     assert healthy is not None
     assert alarm.alarm is not None
@@ -157,17 +151,16 @@ def _draw_alarm(examination: Examination, alarm: ExaminedEpisode) -> Figure:
     frames, t = examined_frames(recording, episode), episode.t[:: frame_stride(recording.fps)]
     joint = int(np.ptp(frames.reference, axis=0).argmax())
     joint = joint if alarm.joint is None else recording.joints.index(alarm.joint)
-    with style.style():
-        figure = Figure(figsize=(style.WIDTH_IN, 2.8))
+    with report.styled_figure(report.WIDTH_IN, 2.8) as figure:
         axes = figure.subplots()
         for values, label, color, width in (
-            (frames.reference, "reference", style.SKY, 1.0),
-            (healthy.predict(frames.reference), "prediction of the healthy joint", style.BLUE, 1.2),
-            (frames.position, "position", style.ORANGE, 1.6),
+            (frames.reference, "reference", report.SKY, 1.0),
+            (healthy.predict(frames.reference), "prediction of the healthy joint", report.BLUE, 1.2),
+            (frames.position, "position", report.ORANGE, 1.6),
         ):
             axes.plot(t - t[0], values[:, joint], color=color, linewidth=width, label=label)
-        axes.axvline(alarm.alarm, color=style.INK, linewidth=1.0)
-        label = style.format_label(recording.joints[joint]) + (f", {recording.unit}" if recording.unit else "")
+        axes.axvline(alarm.alarm, color=report.INK, linewidth=1.0)
+        label = report.format_label(recording.joints[joint]) + (f", {recording.unit}" if recording.unit else "")
         axes.set(xlabel="time, s", ylabel=label, title=f"Episode {alarm.index}, alarm at {alarm.alarm:.2f} s")
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
-        return style.settle_layout(figure)
+    return figure

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
 
 from holdfast.control.equilibria.attraction import Basins
 from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.equilibria import points as points_of
+from holdfast.interface.presentation.equilibria.curves import display_values, label_axis
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def to_dict(basins: Basins) -> dict[str, Any]:
@@ -115,7 +116,38 @@ def _target_errors(basins: Basins) -> dict[str, str]:
     }
 
 
-def _draw_basins(basins: Basins) -> Figure:
-    from holdfast.interface.presentation.equilibria.figures import draw_basins
-
-    return draw_basins(basins)
+def _draw_basins(basins: Basins) -> report.Figure:
+    """Draw a map of the basins where the initial configurations are a grid over two joints (Fig. 8 of Goel et al. 2005), else
+    bars.
+    """
+    points, arm = basins.points, basins.points.law.arm
+    lock_text = ", ".join(
+        f"{arm.joint_names[index]} locked at {value * arm.joints[index].display_unit[0]:.4g} "
+        f"{arm.joints[index].display_unit[1]}"
+        for index, value in zip(points.locked, points.at, strict=True)
+    )
+    caption = f"{arm.name}, {points.law.name}; {lock_text}; {len(basins.end)} starts"
+    shares = basins.shares
+    if basins.shape is None:
+        caption_text = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
+        return report.curves.basin_fraction_figure(
+            [outcome for outcome, _ in shares],
+            [(interval.value, interval.low, interval.high) for _, interval in shares],
+            caption_text,
+        )
+    first, second = basins.healthy
+    codes, cells = np.unique(basins.end, return_inverse=True)
+    names = [basins.name(int(code)) for code in codes]
+    lower, upper = (extremum(basins.starts[:, [first, second]], axis=0) for extremum in (np.min, np.max))
+    half_cells = (upper - lower) / (np.array(basins.shape) - 1) / 2
+    lower, upper = lower - half_cells, upper + half_cells
+    scale = np.array([arm.joints[first].display_unit[0], arm.joints[second].display_unit[0]])
+    lower_shown, upper_shown = lower * scale, upper * scale
+    isolated = np.flatnonzero(~points.continuum)
+    value, y = (display_values(arm, points.q, index).tolist() for index in (first, second))
+    marks = [(points.kinds[index], value[index], y[index], f"{points.kinds[index]} {index + 1}") for index in isolated]
+    lines = [(display_values(arm, q, first), display_values(arm, q, second)) for q in basins.boundaries]
+    extent = (float(lower_shown[0]), float(upper_shown[0]), float(lower_shown[1]), float(upper_shown[1]))
+    return report.curves.basin_map_figure(
+        cells.reshape(basins.shape), names, extent, marks, lines, (label_axis(arm, first), label_axis(arm, second)), caption
+    )

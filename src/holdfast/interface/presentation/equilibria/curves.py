@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from holdfast.control.equilibria.curves import SAMPLE_RADIUS, Curves, merge_arcs
+from holdfast.control.equilibria.curves import SAMPLE_RADIUS, Curves, EquilibriumCurve, merge_arcs
+from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.stability import Kind
+from holdfast.control.equilibria.system import wrap_angles
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import list_alternatives
+from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
+from holdfast.model.arm.model import Arm
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Number of cells of the locked value, and of samples per cell, that show where the target is within reach
+_REACH_CELLS = 360
+_SAMPLES_PER_CELL = 16
+_MAX_SHOWN_JOINTS = 3
 
 
 def to_dict(curves: Curves) -> dict[str, Any]:
@@ -155,7 +163,74 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
     return TableSpec("Segments of one kind", columns, rows)
 
 
-def _draw_curves(curves: Curves) -> Figure:
-    from holdfast.interface.presentation.equilibria.figures import draw_curves
+# ---- figures -------------------------------------------------------------------------------------------------------------
 
-    return draw_curves(curves)
+
+def _draw_curves(curves: Curves) -> report.Figure:
+    """Draw curves of stationary points over the locked value: the error, and the other joints if they are few.
+
+    Ranges in which the target can be reached are shaded; inverse kinematics finds them in steps of 1 degree, or 1/360 of the
+    range of a prismatic joint.
+    """
+    arm, joint, system = curves.law.arm, curves.joint, curves._system
+    other_joints = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MAX_SHOWN_JOINTS]
+    labels = [
+        *(f"{kind.text}, {kind.unit}" for kind in error_kinds(curves.law)),
+        *(label_axis(arm, index) for index in other_joints),
+    ]
+
+    def plot_rows(stationary: EquilibriumCurve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[FloatArray]:
+        errors = display_errors(curves.law, stationary.q[selected], stationary.error[selected], curves.target)
+        return [*errors, *(display_values(arm, stationary.q[selected], index) for index in other_joints)]
+
+    lines = [
+        report.curves.StationaryCurve(segment.kind.word, display_values(arm, curve.q[span], joint), plot_rows(curve, span))
+        for curve in curves.curves
+        for segment in curve.segments
+        for span in [slice(segment.first, segment.last + 1)]
+    ]
+    surface_points = curves.loose
+    point_lines = [
+        report.curves.StationaryCurve(
+            word, display_values(arm, surface_points.q[selected], joint), plot_rows(surface_points, selected)
+        )
+        for word, selected in (("degenerate", ~surface_points.attracting), ("sink", surface_points.attracting))
+        if selected.any()
+    ]
+    values, reached = _reachable_ranges(curves)
+    caption = (
+        f"{arm.name}, {curves.law.name}; undetected lock of {arm.joint_names[joint]}; "
+        f"{len(curves)} curves from {curves.starts} starts"
+        + (f", dots: {len(surface_points)} points sampled from surfaces" if len(surface_points) else "")
+    )
+    return report.curves.stationary_curves_figure(
+        lines, point_lines, labels, label_axis(arm, joint), (values[0], values[-1]), reached, caption
+    )
+
+
+def _reachable_ranges(curves: Curves) -> tuple[FloatArray, list[tuple[float, float]]]:
+    """Return the locked values to show, in degrees or m, and their ranges in which the target is reached."""
+    arm, joint = curves.law.arm, curves.joint
+    lower, upper = (arm.lower[joint], arm.upper[joint]) if arm.joints[joint].prismatic else (-np.pi, np.pi)
+    lower, upper = (lower if np.isfinite(lower) else -1.0), (upper if np.isfinite(upper) else 1.0)
+    edges = np.linspace(lower, upper, _REACH_CELLS + 1)
+    samples = np.repeat((edges[1:] + edges[:-1]) / 2, _SAMPLES_PER_CELL)
+    is_reached = (
+        curves._system.can_reach(samples, np.random.default_rng(0)).reshape(_REACH_CELLS, _SAMPLES_PER_CELL).any(axis=1)
+    )
+    changes = np.flatnonzero(np.diff(np.r_[0, is_reached.astype(int), 0]))
+    displayed_edges = edges * arm.joints[joint].display_unit[0]
+    return displayed_edges, [
+        (float(displayed_edges[start]), float(displayed_edges[stop]))
+        for start, stop in zip(changes[::2], changes[1::2], strict=True)
+    ]
+
+
+def display_values(arm: Arm, q: FloatArray, joint: int | np.intp) -> FloatArray:
+    """Return the values of one joint, in degrees from -180 to 180, or m."""
+    return np.asarray(wrap_angles(arm, q)[:, joint] * arm.joints[joint].display_unit[0])
+
+
+def label_axis(arm: Arm, joint: int | np.intp) -> str:
+    """Return the label of an axis of values of one joint, with the unit."""
+    return f"{arm.joint_names[joint]}, {arm.joints[joint].display_unit[1]}"

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.control.equilibria.points import StationaryPoints
 from holdfast.control.equilibria.stability import REACHED_ERROR, Kind
 from holdfast.control.equilibria.system import idle_joints
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.core.formatting import format_number
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from holdfast.interface.report.page import Section
+from holdfast.interface.report.page import Section
 
 ROWS_PER_KIND = 12  # listed points of each kind
 MAX_LISTED_EIGENVALUES = 3  # more eigenvalues are listed as a range
@@ -160,8 +158,6 @@ def describe_locks(points: StationaryPoints) -> str:
 
 def draw_stationary_arms(points: StationaryPoints) -> list[Section]:
     """Draw the arm at its target, and at the first points at which it stops elsewhere."""
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     is_solution = points.kind == Kind.SOLUTION
     chosen = [
         (np.flatnonzero(is_solution)[:1], "at its target"),

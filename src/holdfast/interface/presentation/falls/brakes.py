@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from holdfast.control.falls.brake_curve import BrakeComparison
 from holdfast.core.formatting import format_number
+from holdfast.interface import report
 from holdfast.interface.presentation.falls.motion import format_distance
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.control.falls.brake_curve import BrakeComparison
 
 
 def to_dict(comparison: BrakeComparison) -> dict[str, Any]:
@@ -69,12 +66,9 @@ def _name_brakes(comparison: BrakeComparison) -> list[str]:
     ]
 
 
-def _draw_figure(comparison: BrakeComparison) -> Figure:
-    from holdfast.interface.report.figures import WIDTH_IN
-    from holdfast.interface.report.motions import TimePanel, motion_figure
-
+def _draw_figure(comparison: BrakeComparison) -> report.Figure:
     lines = dict(zip(_name_brakes(comparison), 1000 * comparison.drop, strict=True))
     lines["stops at once"] = 1000 * comparison.drop_at_brake
-    panel = TimePanel(1000 * comparison.after, lines, "largest drop of the tool, mm", "")
+    panel = report.motions.TimePanel(1000 * comparison.after, lines, "largest drop of the tool, mm", "")
     caption = f"{comparison.arm.name}: {comparison.drop.size} simulated power losses"
-    return motion_figure([panel], caption, "delay of the brakes, ms", panel_width=WIDTH_IN)
+    return report.motions.motion_figure([panel], caption, "delay of the brakes, ms", panel_width=report.WIDTH_IN)

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from holdfast.control.falls.along import DropCurve
 from holdfast.core.formatting import format_count, format_number
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.falls.motion import describe_free_joints, format_distance, list_friction
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.control.falls.along import DropCurve
-    from holdfast.interface.report.page import Section
+from holdfast.interface.report.page import Section
 
 _LIMITS_M = (0.01, 0.05, 0.1, 0.2)
 
@@ -78,11 +76,8 @@ def present(curve: DropCurve) -> Presentation:
     )
 
 
-def draw_curves(curves: dict[str, DropCurve]) -> Figure:
+def draw_curves(curves: dict[str, DropCurve]) -> report.Figure:
     """Draw the drops over the instant of the power loss, one line for each named motion."""
-    from holdfast.interface.report.figures import WIDTH_IN
-    from holdfast.interface.report.motions import TimePanel, motion_figure
-
     first = next(iter(curves.values()))
     time = max((curve.time for curve in curves.values()), key=lambda instants: instants[-1])
     lines = {
@@ -91,14 +86,12 @@ def draw_curves(curves: dict[str, DropCurve]) -> Figure:
     }
     moment = (float(first.time[first.worst]), 1000 * float(first.drop[first.worst]), "worst")
     values = lines if len(curves) > 1 else lines[next(iter(lines))]
-    panel = TimePanel(time, values, "drop of the tool, mm", "", moments=(moment,))
+    panel = report.motions.TimePanel(time, values, "drop of the tool, mm", "", moments=(moment,))
     caption = f"{first.falls.arm.name}: {len(first.time)} simulated power losses"
-    return motion_figure([panel], caption, "instant of the power loss, s", panel_width=WIDTH_IN)
+    return report.motions.motion_figure([panel], caption, "instant of the power loss, s", panel_width=report.WIDTH_IN)
 
 
 def _build_film(curve: DropCurve) -> list[Section]:
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
     caption = "The motion, with the drop of the tool for a power loss at each instant."
     return [build_view_section("The motion", curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.stats import rankdata
 
+from holdfast.control.falls.probability import DropProbability
 from holdfast.core.formatting import format_count, format_interval, format_number
+from holdfast.interface import report
 from holdfast.interface.presentation.falls.motion import describe_free_joints, list_friction
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.control.falls.probability import DropProbability
 
 _MEASURE_NAMES = {
     "drop": "drop of the tool",
@@ -94,12 +91,8 @@ def present(result: DropProbability) -> Presentation:
     )
 
 
-def _draw_map(result: DropProbability) -> Figure:
+def _draw_map(result: DropProbability) -> report.Figure:
     """Draw the mean over the two joints with the largest rank correlation with the measure."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import WIDTH_IN, settle_layout, style
-
     arm, known = result.fall.arm, np.isfinite(result.value)
     middle = (result.fall.q[known].min(axis=0) + result.fall.q[known].max(axis=0)) / 2
     ranks = rankdata(
@@ -109,12 +102,11 @@ def _draw_map(result: DropProbability) -> Figure:
     first, second = np.argsort(-correlations, kind="stable")[:2] if arm.n > 1 else (0, 0)
     x, y, means = result.map(int(first), int(second), _MAP_BINS)
     labels = [f"{arm.joint_names[k]}, {arm.joints[k].display_unit[1]}" for k in (first, second)]
-    with style():
-        figure = Figure(figsize=(0.75 * WIDTH_IN, 4.4))
+    with report.styled_figure(0.75 * report.WIDTH_IN, 4.4) as figure:
         axes = figure.subplots()
         mesh = axes.pcolormesh(
             x * arm.joints[first].display_unit[0], y * arm.joints[second].display_unit[0], means.T, cmap="cividis_r"
         )
         figure.colorbar(mesh, label=f"mean {_MEASURE_NAMES[result.measure]}, {result.unit}")
         axes.set(xlabel=labels[0], ylabel=labels[1], title=f"{known.sum():,} falls")
-        return settle_layout(figure)
+    return figure

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import format_number
 from holdfast.core.typing import FloatArray
-
-if TYPE_CHECKING:
-    from holdfast.control.falls.fall import PowerLoss
-    from holdfast.interface.report.page import Section
+from holdfast.interface.presentation.arm.view import build_view_section
+from holdfast.interface.report.page import Section
 
 FILM_FRAMES = 161
 TIME_LABEL = "time since the power loss, s"
@@ -55,8 +53,6 @@ def list_friction(fall: PowerLoss | PhysicalFall) -> list[tuple[str, str]]:
 
 def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray) -> Section:
     """Build the view of motions (F, n) over times (F,), the first opaque, next to a ghost at the power loss."""
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     shown = {**motions, "at the power loss": np.tile(np.atleast_2d(fall.q)[0], (len(time), 1))}
     return build_view_section(
         "The fall",

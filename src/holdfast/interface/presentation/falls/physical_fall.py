@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import capitalise_first, format_number
+from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.falls import motion
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
+from holdfast.interface.report.page import Section
 
 
 def to_dict(fall: PhysicalFall) -> dict[str, Any]:
@@ -56,11 +53,9 @@ def _animate_fall(fall: PhysicalFall) -> list[Section]:
     return [motion.build_film(fall, {"fall": fall.q[rows]}, np.linspace(0.0, float(fall.time[-1]), len(rows)))]
 
 
-def _draw_figure(fall: PhysicalFall) -> Figure:
-    from holdfast.interface.report.motions import TimePanel, motion_figure
-
+def _draw_figure(fall: PhysicalFall) -> report.Figure:
     drops = 1000 * fall.drops
     first_times = [contact.time for contact in fall.contacts or ()][:1]
     moments = tuple((time, float(np.interp(time, fall.time, drops)), "first contact") for time in first_times)
-    panel = TimePanel(fall.time, drops, "drop of the tool, mm", "Tool", moments=moments)
-    return motion_figure([panel], f"{fall.arm.name} without power, MuJoCo", motion.TIME_LABEL, panel_width=7)
+    panel = report.motions.TimePanel(fall.time, drops, "drop of the tool, mm", "Tool", moments=moments)
+    return report.motions.motion_figure([panel], f"{fall.arm.name} without power, MuJoCo", motion.TIME_LABEL, panel_width=7)

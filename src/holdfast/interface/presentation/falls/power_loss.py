@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,16 +12,13 @@ from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.core.status import Status
+from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import tabulate_contacts
 from holdfast.interface.presentation.falls import motion
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.report.page import Section
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.model.arm.friction import Friction
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
 
 Others = Mapping[str, PowerLoss | PhysicalFall]
 BAND_LABELS = ("without friction", "with twice the friction")
@@ -224,10 +221,8 @@ def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
     return [motion.build_film(fall, motions, time)]
 
 
-def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
+def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
     """Draw the drop of the tool, the energies, and the joint rates over time."""
-    from holdfast.interface.report.motions import TimePanel, motion_figure
-
     arm, time = fall.arm, np.linspace(0.0, _find_end(fall), 401)
     q, rates = fall.q_at(time), fall.rates_at(time)
     released, kinetic = fall.energies_at(time)
@@ -243,8 +238,10 @@ def _draw_figure(fall: PowerLoss, others: Others) -> Figure:
     speeds = {arm.joint_names[k]: shown_rates[:, k] for k in fall.free}
     label = f"joint rate, {' or '.join(sorted({f'{units[k]}/s' for k in fall.free}))}"
     panels = [
-        TimePanel(time, 1000 * fall.drop_at(time), "drop of the tool, mm", "Tool", compared=compared[0] if compared else None),
-        TimePanel(time, energies, "energy, J", "Energy"),
-        TimePanel(time, speeds, label, "Joints", moments=stops),
+        report.motions.TimePanel(
+            time, 1000 * fall.drop_at(time), "drop of the tool, mm", "Tool", compared=compared[0] if compared else None
+        ),
+        report.motions.TimePanel(time, energies, "energy, J", "Energy"),
+        report.motions.TimePanel(time, speeds, label, "Joints", moments=stops),
     ]
-    return motion_figure(panels, f"{arm.name} without power, simulated", motion.TIME_LABEL)
+    return report.motions.motion_figure(panels, f"{arm.name} without power, simulated", motion.TIME_LABEL)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.arm.view import build_view_section
@@ -11,11 +11,9 @@ from holdfast.interface.presentation.falls.drop_curve import draw_curves
 from holdfast.interface.presentation.falls.motion import describe_drop, format_distance, list_friction
 from holdfast.interface.presentation.holding import hold_check
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
+from holdfast.interface.report.page import Section
 from holdfast.response.stowing.path import StowPath
 from holdfast.response.stowing.pose import StowPose
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Section
 
 
 def to_dict(result: StowPose | StowPath) -> dict[str, Any]:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from holdfast.kinematics.holding.static_check import HoldCheck
+from holdfast.kinematics.holding.static_check import HoldCheck
 
 _STOP_WORDS = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops", 0: ""}
 

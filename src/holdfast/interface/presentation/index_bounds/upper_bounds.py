@@ -45,9 +45,7 @@ def present(bounds: UpperBound | UpperBoundTable) -> Presentation:
 
 def _tabulate_bounds(bounds: Sequence[UpperBound]) -> TableSpec:
     columns = [
-        Header("joints", "joints"),
-        Header("rows", "rows"),
-        Header("failures", "failures"),
+        *(Header(name, name) for name in ("joints", "rows", "failures")),
         Header("bound", "bound", digits=6),
         Header("bound_by", "theorem"),
         Header("best_known", "best known", digits=6),

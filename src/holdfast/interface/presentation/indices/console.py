@@ -1,4 +1,4 @@
-"""Console text and JSON of indices and susceptibilities at one configuration (n,)."""
+"""Notebook view of indices and susceptibilities, and their console text and JSON at one configuration (n,)."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from holdfast.core.formatting import format_number
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import print_limit_violations
+from holdfast.interface.presentation.presentation import Fact, Presentation
 from holdfast.interface.presentation.printing import format_column, format_positions
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import Objective
@@ -16,6 +17,19 @@ from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+
+def present(objective: Objective) -> Presentation:
+    """Present the objective with its better direction, bound, and source."""
+    facts = [Fact("better", objective.better), Fact("unit", "none" if objective.unit == "1" else objective.unit)]
+    if isinstance(objective, Index):
+        bound = "not known" if objective.bound is None else format_number(objective.bound, 4)
+        bound += f" ({objective.bound_note})" if objective.bound_note else ""
+        facts += [Fact("no configuration can exceed", bound), Fact("failures considered", len(objective.failures))]
+    if isinstance(objective, (Index, Susceptibility)):
+        facts.append(Fact("source", objective.source or "not given"))
+    description = objective.describe() if isinstance(objective, (Index, Susceptibility)) else objective.name
+    return Presentation(objective.name, f"{description}, arm {objective.arm.title}", facts=facts)
 
 
 def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
@@ -27,11 +41,7 @@ def index_values(index: Index, q: FloatArray) -> dict[str, Any]:
         "index": index.label,
         "task": index.task.name,
         "characteristic_length_m": index.task.length,
-        "unit": index.unit,
-        "better": index.better,
-        "bound": index.bound,
-        "bound_note": index.bound_note,
-        "best_known": index.best_known,
+        **{attribute: getattr(index, attribute) for attribute in ("unit", "better", "bound", "bound_note", "best_known")},
         "attained": index.is_attained,
         "source": index.source,
         "q": dict(zip(names, q.tolist(), strict=True)),

@@ -4,46 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import INK, WIDTH_IN, format_label, settle_layout, style
-from holdfast.interface.report.motions import TimePanel, motion_figure
-from holdfast.interface.report.palette import EMPTY_COLOR
-from holdfast.interface.report.scenes import Scale, label_color_bar
+from holdfast.interface import report
+from holdfast.interface.report.palette import EMPTY_COLOR, INK
 from holdfast.kinematics.solvers import joint_space
-
-if TYPE_CHECKING:
-    from holdfast.response.lock_survival.dynamic_program import SearchBounds
-    from holdfast.response.lock_survival.planning import LockSurvival
-
+from holdfast.response.lock_survival.dynamic_program import SearchBounds
+from holdfast.response.lock_survival.planning import LockSurvival
 
 _MAP_BINS = 64
 _SAMPLES_PER_NODE = 8  # samples between two nodes
 
 
-def draw_survival(survival: LockSurvival) -> Figure:
+def draw_survival(survival: LockSurvival) -> report.Figure:
     """Draw the survival over time with that of other motions."""
     bound = survival.survival_bound
     level = None if bound is None else (100 * bound, "no motion survives more on average")
     motion_name = "most locks survived" if survival.found is not None else "this motion"
     lines = {motion_name: 100 * survival.curve()} | {each.name: 100 * each.curve for each in survival.comparisons}
-    panel = TimePanel(survival.time, lines, "survival if a joint locks now, %", "", reference_level=level)
-    return motion_figure([panel], "", "time, s", panel_width=WIDTH_IN)
+    panel = report.motions.TimePanel(survival.time, lines, "survival if a joint locks now, %", "", reference_level=level)
+    return report.motions.motion_figure([panel], "", "time, s", panel_width=report.WIDTH_IN)
 
 
-def draw_jump(survival: LockSurvival) -> Figure:
+def draw_jump(survival: LockSurvival) -> report.Figure:
     """Draw the velocity that the tool loses when a joint stops at once."""
     lines = dict(zip(survival.arm.joint_names, survival.jump.linear.T, strict=True))
-    panel = TimePanel(survival.time, lines, "tool velocity lost, m/s", "")
-    return motion_figure([panel], "", "time, s", panel_width=WIDTH_IN)
+    panel = report.motions.TimePanel(survival.time, lines, "tool velocity lost, m/s", "")
+    return report.motions.motion_figure([panel], "", "time, s", panel_width=report.WIDTH_IN)
 
 
-def draw_map(survival: LockSurvival) -> Figure:
+def draw_map(survival: LockSurvival) -> report.Figure:
     """Draw which locks are survivable at every node, over the joint that the self-motion moves most."""
     search = survival.found
     assert search is not None
@@ -72,7 +64,7 @@ def draw_map(survival: LockSurvival) -> Figure:
         *(_StripPanel(panel, f"lock of {name}") for panel, name in zip(values[1:], survival.arm.joint_names, strict=True)),
     ]
     label, ylabel = "survivable, %", f"{survival.arm.joint_names[joint]}, {unit}"
-    return _draw_strips(survival.time, edges, panels, path, scale=Scale(0.0, 100.0), label=label, ylabel=ylabel)
+    return _draw_strips(survival.time, edges, panels, path, scale=report.Scale(0.0, 100.0), label=label, ylabel=ylabel)
 
 
 def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[FloatArray, FloatArray]:
@@ -110,10 +102,10 @@ def _draw_strips(
     panels: Sequence[_StripPanel],
     path: FloatArray,
     *,
-    scale: Scale,
+    scale: report.Scale,
     label: str,
     ylabel: str,
-) -> Figure:
+) -> report.Figure:
     """Draw maps in a grid, on one scale.
 
     Args:
@@ -127,8 +119,7 @@ def _draw_strips(
     """
     column_count = min(4, len(panels))
     row_count = -(-len(panels) // column_count)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.2 * row_count + 1.1))
+    with report.styled_figure(report.WIDTH_IN, 2.2 * row_count + 1.1) as figure:
         axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
         for panel_axes in axes.ravel()[len(panels) :]:
             panel_axes.set_visible(False)
@@ -139,13 +130,15 @@ def _draw_strips(
             if index >= len(panels) - column_count:
                 panel_axes.set_xlabel("time, s")
                 panel_axes.tick_params(labelbottom=True)
-        label_color_bar(
+        report.label_color_bar(
             figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015), label, scale
         )
-        return settle_layout(figure)
+    return figure
 
 
-def _draw_strip(axes: Axes, time: FloatArray, edges: FloatArray, panel: _StripPanel, path: FloatArray, scale: Scale) -> None:
+def _draw_strip(
+    axes: report.Axes, time: FloatArray, edges: FloatArray, panel: _StripPanel, path: FloatArray, scale: report.Scale
+) -> None:
     half_steps = np.diff(time) / 2
     time_edges = np.concatenate([[time[0]], time[:-1] + half_steps, [time[-1]]])
     mappable = scale.mappable
@@ -155,6 +148,6 @@ def _draw_strip(axes: Axes, time: FloatArray, edges: FloatArray, panel: _StripPa
     )
     axes.plot(time, path, color="white", linewidth=2.6)
     axes.plot(time, path, color=INK, linewidth=1.3)
-    axes.set_title(format_label(panel.title), fontsize=9)
+    axes.set_title(report.format_label(panel.title), fontsize=9)
     axes.grid(visible=False)
     axes.set_xlim(time[0], time[-1])

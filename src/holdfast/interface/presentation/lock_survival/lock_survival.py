@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_count, format_number, format_percent
 from holdfast.core.typing import FloatArray
+from holdfast.interface.presentation.arm.view import build_view_section
+from holdfast.interface.presentation.lock_survival.figures import draw_jump, draw_map, draw_survival
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.renderers import write_json
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.response.lock_survival.injection import LockTests
-    from holdfast.response.lock_survival.planning import LockSurvival
+from holdfast.interface.report.page import Section
+from holdfast.response.lock_survival.injection import LockTests
+from holdfast.response.lock_survival.planning import LockSurvival
 
 _NEGLIGIBLE_SPEED_M_S = 1e-9  # m/s
 _SMALL_MOTION = 0.3  # rad and m along a whole curve
@@ -101,7 +99,7 @@ def present(survival: LockSurvival) -> Presentation:
     ]
     figures = {
         "survival": FigureSpec(
-            partial(_draw, survival, "survival"),
+            partial(draw_survival, survival),
             "Survival over time",
             "Probability that the rest of the path can be followed if a joint locks now.",
         )
@@ -109,14 +107,14 @@ def present(survival: LockSurvival) -> Presentation:
     if survival.found is not None:
         held = f" All of them keep {' and '.join(survival.found.held)} fixed, like the motion." if survival.found.held else ""
         figures["map"] = FigureSpec(
-            partial(_draw, survival, "map"),
+            partial(draw_map, survival),
             "Survivable locks by configuration",
             "Configurations found for every pose, by the position of the joint that the self-motion moves most; where several "
             "share a position, the best is shown. The line is the motion. The first map shows the fraction of all locks that "
             f"is survivable, the others whether the lock of one joint is (yellow).{held}",
         )
     figures["jump"] = FigureSpec(
-        partial(_draw, survival, "jump"),
+        partial(draw_jump, survival),
         "Loss of tool velocity at a lock",
         "Velocity that the tool point loses when a joint stops instantly, for each joint.",
     )
@@ -266,12 +264,12 @@ def _format_largest(values: FloatArray, time: FloatArray) -> str:
 
 def _build_sections(survival: LockSurvival) -> Sequence[Section]:
     """Animate the arm along its path."""
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.page import Picture, Section
-
-    view = scene(
+    section = build_view_section(
+        "The motion",
         survival.arm,
         survival.q,
+        "The arm on its path (orange).",
+        label=f"{survival.arm.name} moving along its path",
         time=np.linspace(0.0, survival.time[-1], len(survival.time)),
         path=survival.poses[:, :3, 3],
         readings=[
@@ -280,11 +278,4 @@ def _build_sections(survival: LockSurvival) -> Sequence[Section]:
         ],
         cell=None if survival.kept is None else survival.kept[0].cell,
     )
-    description = f"{survival.arm.name} moving along its path"
-    return [Section("The motion", [Picture(view.to_html("motion", description), "The arm on its path (orange).")])]
-
-
-def _draw(survival: LockSurvival, name: str) -> Figure:
-    from holdfast.interface.presentation.lock_survival import figures
-
-    return getattr(figures, f"draw_{name}")(survival)
+    return [section]

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.path_following.trajectory_figures import TrajectorySections, draw_figure
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec, format_value
+from holdfast.kinematics.path_following.slow_motion import SlowMotion
 from holdfast.kinematics.path_following.trajectory import Trajectory
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.kinematics.path_following.slow_motion import SlowMotion
 
 
 def to_dict(trajectory: Trajectory) -> dict[str, Any]:
@@ -99,8 +96,8 @@ def present(trajectory: Trajectory) -> Presentation:
         notices=[] if trajectory.on_path else [Notice(f"{trajectory.headline}.", "bad")],
         facts=_list_facts(trajectory, unit),
         tables=tables,
-        figures={"motion": FigureSpec(lambda: _draw_figure(trajectory), on_page=False, saved=False)},
-        sections=lambda: _build_sections(trajectory),
+        figures={"motion": FigureSpec(partial(draw_figure, trajectory), on_page=False, saved=False)},
+        sections=lambda: TrajectorySections(trajectory).build(),
         method=[
             ("Law", trajectory.method),
             ("Objective", f"{objective.name}, {objective.better} is better"),
@@ -122,18 +119,6 @@ def present(trajectory: Trajectory) -> Presentation:
         arm=arm,
         exports={"trajectory.csv": trajectory.to_csv},
     )
-
-
-def _draw_figure(trajectory: Trajectory) -> Figure:
-    from holdfast.interface.presentation.path_following.trajectory_figures import draw_figure
-
-    return draw_figure(trajectory)
-
-
-def _build_sections(trajectory: Trajectory) -> list[Section]:
-    from holdfast.interface.presentation.path_following.trajectory_figures import TrajectorySections
-
-    return TrajectorySections(trajectory).build()
 
 
 def _list_facts(trajectory: Trajectory, unit: str) -> list[Fact]:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
 from holdfast.core.errors import ArmError
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
-from holdfast.interface.presentation.arm.view import scene
+from holdfast.core.typing import FloatArray
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import choose_views, scene
 from holdfast.interface.presentation.collision.shape import describe_shape
 from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
 from holdfast.kinematics.path_following.trajectory import TRACKING_TOLERANCE, Trajectory, find_susceptibilities
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from holdfast.model.arm.model import Arm
 
 _MAX_VIEW_FRAMES = 201
 # A relative change below _NEGLIGIBLE_CHANGE is reported as none; above _MAX_RELATIVE_CHANGE a percentage is not helpful.
@@ -24,24 +24,39 @@ _MAX_RELATIVE_CHANGE = 10.0
 SPEED_FACTORS = (1.0, 0.5, 0.25)  # fractions of the duration of the motion, as in Figs. 9 to 12
 
 
-def draw_figure(trajectory: Trajectory) -> Figure:
+def draw_figure(trajectory: Trajectory) -> report.Figure:
     """Draw the arm at start and end, the path of its tool, and the objective over time."""
-    from holdfast.interface.presentation.arm.view import choose_views
-    from holdfast.interface.report.motions import StickMotion, TimePanel, stick_motion_figure
-
     chain = trajectory.arm.frames(trajectory.q)[..., :3, 3]
-    moving = StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
+    moving = report.motions.StickMotion(chain, np.r_[False, trajectory.arm.prismatic, False], trajectory.poses[:, :3, 3])
     unit = "" if trajectory.objective.unit in ("1", "mixed") else f", {trajectory.objective.unit}"
-    panel = TimePanel(
+    panel = report.motions.TimePanel(
         trajectory.time,
         trajectory.value,
         f"{trajectory.objective.name}{unit}",
         f"{capitalise_first(trajectory.objective.better)} is better",
     )
     caption = f"{trajectory.arm.name}, {trajectory.method}, {len(trajectory.time):,} samples"
-    return stick_motion_figure(
+    return report.motions.stick_motion_figure(
         moving, choose_views(trajectory.arm, chain), panel, caption, "time, s", path_label="desired path"
     )
+
+
+def draw_joint_positions(
+    arm: Arm, time: FloatArray, q: FloatArray, titles: Sequence[str], xlabel: str = "time, s", remark: str = ""
+) -> Picture:
+    """Draw the position of each joint (T, n) over time (T,), and its limits where one is near; a remark ends the caption."""
+    panels = []
+    for joint, positions, title in zip(arm.joints, q.T, titles, strict=True):
+        scale, unit = joint.display_unit
+        lines = [TimelineLine(scale * positions, "position", "first")]
+        reach = np.ptp(scale * positions) + (0.1 if joint.prismatic else 10.0)
+        for limit in (joint.lower, joint.upper):
+            # A limit far away would only flatten the curve.
+            if np.isfinite(limit) and np.abs(scale * (positions - limit)).min() < reach:
+                lines.append(TimelineLine(np.full(len(time), scale * limit), "limit", "compared"))
+        panels.append(Timeline(lines, unit, title))
+    image = draw_small_multiples(time, panels, "Joint positions over time", xlabel)
+    return Picture(image, f"Joint positions. Dashed lines are joint limits, where one is near. {remark}".strip())
 
 
 class TrajectorySections:
@@ -193,18 +208,7 @@ class TrajectorySections:
     def draw_joints(self) -> list[Block]:
         """Draw the position of each joint with its limits."""
         trajectory = self.trajectory
-        panels = []
-        for index, joint in enumerate(trajectory.arm.joints):
-            scale, unit = joint.display_unit
-            lines = [TimelineLine(scale * trajectory.q[:, index], "position", "first")]
-            reach = np.ptp(scale * trajectory.q[:, index]) + (0.1 if joint.prismatic else 10.0)
-            for limit in (joint.lower, joint.upper):
-                # A limit far away would only flatten the curve.
-                if np.isfinite(limit) and np.abs(scale * (trajectory.q[:, index] - limit)).min() < reach:
-                    lines.append(TimelineLine(np.full(len(trajectory.time), scale * limit), "limit", "compared"))
-            panels.append(Timeline(lines, unit, joint.name))
-        image = draw_small_multiples(trajectory.time, panels, "Joint positions over time")
-        return [Picture(image, "Joint positions. Dashed lines are joint limits, where one is near.")]
+        return [draw_joint_positions(trajectory.arm, trajectory.time, trajectory.q, trajectory.arm.joint_names)]
 
     def draw_clearance(self) -> list[Block]:
         """Draw the smallest distance of the arm from everything that it must avoid."""

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from holdfast.control.physics.execution import format_error
+from holdfast.control.physics.execution import Execution, format_error
 from holdfast.core.formatting import format_number
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation
+from holdfast.interface.report.page import Section
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.control.physics.execution import Execution
-    from holdfast.interface.report.page import Section
-
+SERVO_QUANTITIES = ("tracking_error", "saturated_fraction", "stiffness", "damping")  # of each joint
 _MAX_VIEW_FRAMES = 201
 _OUTCOME_PHRASES = {
     "finished": "finished its motion",
@@ -53,10 +51,7 @@ def to_dict(run: Execution) -> dict[str, Any]:
         "following_error": dict(zip(names, run.following_error.max(axis=0), strict=True)),
         "tool_error_m": {"most": run.tool_error[0].max(), "end": run.tool_error[0][-1]},
         "tool_error_rad": {"most": run.tool_error[1].max(), "end": run.tool_error[1][-1]},
-        "tracking_error": dict(zip(names, run.tracking_error, strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated_fraction, strict=True)),
-        "stiffness": dict(zip(names, run.stiffness, strict=True)),
-        "damping": dict(zip(names, run.damping, strict=True)),
+        **{name: dict(zip(names, getattr(run, name), strict=True)) for name in SERVO_QUANTITIES},
         "control_rate_hz": run.servos.rate,
     } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
 
@@ -145,8 +140,6 @@ def _list_facts(run: Execution) -> list[Fact]:
 
 
 def _animate_motion(run: Execution) -> list[Section]:
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     frame_indices = np.linspace(0, len(run.time) - 1, min(_MAX_VIEW_FRAMES, len(run.time))).astype(int)
     locks = {
         name: float(instant) for name, instant in zip(run.arm.joint_names, run.lock_time, strict=True) if np.isfinite(instant)
@@ -165,15 +158,15 @@ def _animate_motion(run: Execution) -> list[Section]:
     return [section]
 
 
-def _draw_figure(run: Execution) -> Figure:
+def _draw_figure(run: Execution) -> report.Figure:
     """Draw the distance of the tool from its goal, the constraint deviations, and the tracking errors over time."""
-    from holdfast.interface.report.motions import TimePanel, motion_figure
-
     locks = run.lock_time[np.isfinite(run.lock_time) & (run.lock_time > 0)]
 
-    def make_panel(values: FloatArray, label: str, title: str, level: tuple[float, str] | None = None) -> TimePanel:
+    def make_panel(
+        values: FloatArray, label: str, title: str, level: tuple[float, str] | None = None
+    ) -> report.motions.TimePanel:
         moments = tuple((float(instant), float(np.interp(instant, run.time, values)), "a joint locks") for instant in locks[:1])
-        return TimePanel(run.time, values, label, title, level, moments)
+        return report.motions.TimePanel(run.time, values, label, title, level, moments)
 
     panels = []
     if run.goal is not None:
@@ -195,4 +188,4 @@ def _draw_figure(run: Execution) -> Figure:
     unit = "m or rad" if run.arm.prismatic.any() else "rad"
     panels.append(make_panel(tracking_errors, f"largest servo error, {unit}", "Servos"))
     caption = f"{run.arm.name}: {run.outcome}; {run.servos.describe()}, MuJoCo"
-    return motion_figure(panels, caption)
+    return report.motions.motion_figure(panels, caption)

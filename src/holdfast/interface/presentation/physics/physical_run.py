@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from holdfast.control.physics.run import PhysicalRun
 from holdfast.control.simulation.errors import error_history, error_kinds
 from holdfast.core.formatting import capitalise_first, format_number, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
+from holdfast.interface.presentation.physics.execution import SERVO_QUANTITIES
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.simulation import runs as simulation
 from holdfast.interface.presentation.simulation.errors import format_errors
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.figure import Figure
-
-    from holdfast.control.physics.run import PhysicalRun
-    from holdfast.model.collision.contacts import Contact
+from holdfast.model.collision.contacts import Contact
 
 
 def to_dict(run: PhysicalRun) -> dict[str, Any]:
@@ -38,10 +35,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "path_distance_m": run.path_distance,
         "terminal_distance_m": run.terminal_distance,
         "terminal_turn_rad": run.terminal_turn,
-        "tracking_error": dict(zip(names, run.tracking_error.tolist(), strict=True)),
-        "saturated_fraction": dict(zip(names, run.saturated_fraction.tolist(), strict=True)),
-        "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
-        "damping": dict(zip(names, run.damping.tolist(), strict=True)),
+        **{name: dict(zip(names, getattr(run, name), strict=True)) for name in SERVO_QUANTITIES},
         "control_rate_hz": run.servos.rate,
     } | ({} if run.contacts is None else {"contacts": list_contacts(run.contacts)})
     return run.kinematic.to_dict() | {"physics": physics}
@@ -105,18 +99,13 @@ def _format_first_contact(contacts: Sequence[Contact] | None) -> str:
     return f"{contacts[0].link} & {contacts[0].object}, {format_number(contacts[0].time, 4)} s" if contacts else "none"
 
 
-def _draw_figure(run: PhysicalRun) -> Figure:
+def _draw_figure(run: PhysicalRun) -> report.Figure:
     """Draw both tool paths in the two world axes of largest extent, and errors and tracking errors over time."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report import figures as style
-    from holdfast.interface.report.motions import TimePanel, draw_panel
-
     kinematic_path, arm, kinds = run.kinematic_path, run.law.arm, error_kinds(run.law)
     first_axis, second_axis = chosen = sorted(np.argsort(np.ptp(np.vstack([run.x, kinematic_path.x]), axis=0))[-2:])
     servo_errors = np.where(run.is_locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
     panels = [
-        TimePanel(
+        report.motions.TimePanel(
             run.time,
             kind.factor * errors,
             f"{kind.text}, {kind.unit}",
@@ -128,7 +117,7 @@ def _draw_figure(run: PhysicalRun) -> Figure:
     ]
     servo_unit = "m or rad" if arm.prismatic.any() else "rad"
     panels.append(
-        TimePanel(
+        report.motions.TimePanel(
             run.time,
             np.maximum(servo_errors, 1e-9),
             f"largest servo error of a healthy joint, {servo_unit}",
@@ -136,17 +125,16 @@ def _draw_figure(run: PhysicalRun) -> Figure:
             log_scale=True,
         )
     )
-    with style.style():
-        figure = Figure(figsize=((1.6 if len(kinds) > 1 else 1.25) * style.WIDTH_IN, 4.1))
+    with report.styled_figure((1.6 if len(kinds) > 1 else 1.25) * report.WIDTH_IN, 4.1) as figure:
         path_axes, *panel_axes = figure.subplots(1, 1 + len(panels))
         for path, color, width, label in (
-            (kinematic_path.x, style.SKY, 4.5, "kinematic"),
-            (run.x, style.BLUE, 1.4, "in MuJoCo"),
+            (kinematic_path.x, report.SKY, 4.5, "kinematic"),
+            (run.x, report.BLUE, 1.4, "in MuJoCo"),
         ):
             path_axes.plot(*path[:, chosen].T, color=color, linewidth=width, label=label)
-        path_axes.plot(*run.x[0, chosen], "o", color=style.INK, markersize=4, label="start")
+        path_axes.plot(*run.x[0, chosen], "o", color=report.INK, markersize=4, label="start")
         path_axes.plot(
-            *kinematic_path.x[-1, chosen], "s", color=style.ORANGE, markersize=7, fillstyle="none", label="kinematic end"
+            *kinematic_path.x[-1, chosen], "s", color=report.ORANGE, markersize=7, fillstyle="none", label="kinematic end"
         )
         path_axes.set(
             xlabel=f"{'xyz'[first_axis]} of the tool, m",
@@ -155,12 +143,12 @@ def _draw_figure(run: PhysicalRun) -> Figure:
         )
         path_axes.set_aspect("equal", adjustable="datalim")
         for axes, panel in zip(panel_axes, panels, strict=True):
-            draw_panel(axes, panel, "time, s")
+            report.motions.draw_panel(axes, panel, "time, s")
         locked = [name for name, instant in zip(arm.joint_names, run.kinematic.lock_time, strict=True) if np.isfinite(instant)]
         caption = (
             f"{arm.name}, {run.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
             f"Kinematic: {run.kinematic.outcome}; in MuJoCo, {run.servos.describe()}: {run.ending}"
         )
-        style.legend_below(figure, path_axes, 4)
-        figure.suptitle(style.format_label(caption, 200), fontsize=9, color=style.SOFT)
-        return style.settle_layout(figure)
+        report.legend_below(figure, path_axes, 4)
+        figure.suptitle(report.format_label(caption, 200), fontsize=9, color=report.SOFT)
+    return figure

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from holdfast.interface import report
+from holdfast.interface.presentation.assessment.sections.survival import draw_before_and_after
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, format_value
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
+from holdfast.interface.report.views import SIDE_VIEW, choose_side_and_top_views
+from holdfast.response.recovery.workspace_after_failure import RemainingWorkspace
 
 _MAPS_CAPTION = (
     "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach; small numbers count the targets."
@@ -69,9 +68,6 @@ def present(remainder: RemainingWorkspace) -> Presentation:
     )
 
 
-def _draw_maps(remainder: RemainingWorkspace) -> Figure:
-    from holdfast.interface.presentation.assessment.sections.survival import draw_before_and_after
-    from holdfast.interface.report.views import SIDE_VIEW, choose_side_and_top_views
-
+def _draw_maps(remainder: RemainingWorkspace) -> report.Figure:
     view = (choose_side_and_top_views(remainder.position) or [SIDE_VIEW])[0]
     return draw_before_and_after(remainder.position, remainder.healthy, remainder.locked, view, remainder.degraded.describe())

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.interface.presentation.presentation import Fact, Presentation
-
-if TYPE_CHECKING:
-    from holdfast.response.recovery.waypoints import WaypointCheck
+from holdfast.response.recovery.waypoints import WaypointCheck
 
 
 def to_dict(check: WaypointCheck) -> dict[str, Any]:

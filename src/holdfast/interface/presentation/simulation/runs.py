@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,10 +15,8 @@ from holdfast.interface.presentation.collision.contacts import list_contacts, ta
 from holdfast.interface.presentation.collision.shape import summarize_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import REACHED_ERROR, format_errors, list_error_facts, list_errors
+from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 from holdfast.kinematics.paths.joint_table import joint_columns
-
-if TYPE_CHECKING:
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 
 
 def to_dict(runs: Runs) -> dict[str, Any]:
@@ -65,8 +63,6 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
     """Present the outcome of run k, or the number of each outcome if there are many runs and no k is given."""
     if k is None and runs.code.ndim:
         return _present_outcomes(runs)
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
-
     drawing = RunDrawing(runs, k or 0)
     law, arm, unit, run_index = runs.law, drawing.arm, runs.unit, k or 0
     reason = Reason(int(drawing.get_run_array("reason")))
@@ -106,8 +102,6 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
 
 def _present_outcomes(runs: Runs) -> Presentation:
     """Present many runs by their outcomes."""
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
-
     counts, passes_limit = runs.counts(), np.atleast_2d(runs.limits_passed).any(axis=1)
     rows: list[tuple[str, int]] = [*counts.items(), ("past a joint limit on the way", int(passes_limit.sum()))]
     lines = []
@@ -176,8 +170,6 @@ def _tabulate_joints(drawing: RunDrawing) -> TableSpec:
 
 def to_csv(runs: Runs, file: Path, k: int) -> Path:
     """Write the samples of run k as rows of a table."""
-    from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
-
     law, path = runs.law, RunDrawing(runs, k).full_path
     header = ["time_cycles" if runs.cycles else "time_s", *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m"]
     columns = [path.time, path.q, path.x]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,15 +12,13 @@ from holdfast.control.simulation.runs import RunOutcome, RunPath, Runs
 from holdfast.core.caching import cached_property
 from holdfast.core.formatting import capitalise_first, format_number
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape
+from holdfast.interface.presentation.path_following.trajectory_figures import draw_joint_positions
 from holdfast.interface.presentation.simulation.errors import format_errors
+from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.model.collision.contacts import Contact
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.motions import TimePanel
-    from holdfast.interface.report.page import Block, Picture, Section
 
 REPEATED_SPAN_GAINS = 200.0  # 1/Ke: duration that is drawn of a motion that repeats itself
 _MIN_SAMPLES = 1001
@@ -127,10 +124,8 @@ class RunDrawing:
         target_position = target[:3, 3] if target.shape == (4, 4) else target @ linear
         return np.asarray(start + projection @ (target_position - start))
 
-    def build_panels(self) -> list[TimePanel]:
+    def build_panels(self) -> list[report.motions.TimePanel]:
         """Build the panels of position error and angle error over time, as far as the task prescribes them, with the locks."""
-        from holdfast.interface.report.motions import TimePanel
-
         drawn_path, task = self.drawn_path, self.runs.law.task
         position_series = ("distance from the target, mm", 1000 * drawn_path.position_error, 1000 * self.smallest_errors[0])
         angle_series = (
@@ -149,7 +144,7 @@ class RunDrawing:
                 if lock_instant <= drawn_path.time[-1]
             )
             level = (smallest, "smallest error found") if smallest > 1e-3 else None
-            panels.append(TimePanel(drawn_path.time, values, label, title, level, moments, log_scale=True))
+            panels.append(report.motions.TimePanel(drawn_path.time, values, label, title, level, moments, log_scale=True))
         return panels
 
     @property
@@ -158,16 +153,15 @@ class RunDrawing:
         locks = f"undetected lock of {', '.join(self.lock_texts)}" if self.lock_texts else "no lock"
         return f"{self.arm.name}, {self.runs.law.label}, {locks}; one run"
 
-    def draw_figure(self) -> Figure:
+    def draw_figure(self) -> report.Figure:
         """Draw the arm at start and end, the path of its tool, and the error over time."""
-        from holdfast.interface.presentation.arm.view import choose_views
-        from holdfast.interface.report.motions import StickMotion, stick_motion_figure
-
         drawn_path = self.drawn_path
         chain = self.arm.frames(drawn_path.q[self.frame_indices])[..., :3, 3]
         is_slide, locked = (np.r_[False, joint_flags, False] for joint_flags in (self.arm.prismatic, drawn_path.locked[-1]))
-        motion = StickMotion(chain, is_slide, np.array([drawn_path.x[0], self.goal_position]), locked, self.goal_position)
-        return stick_motion_figure(
+        motion = report.motions.StickMotion(
+            chain, is_slide, np.array([drawn_path.x[0], self.goal_position]), locked, self.goal_position
+        )
+        return report.motions.stick_motion_figure(
             motion, choose_views(self.arm, chain), self.build_panels()[0], self.caption, self._time_label
         )
 
@@ -177,8 +171,6 @@ class RunDrawing:
 
     def build_sections(self) -> list[Section]:
         """Build the sections of the report: the moving arm, and its errors, joints, and contacts over time."""
-        from holdfast.interface.report.page import Section
-
         return [
             self._animate_run(),
             Section("Error of the end effector", [self._draw_errors()]),
@@ -187,8 +179,6 @@ class RunDrawing:
         ]
 
     def _animate_run(self) -> Section:
-        from holdfast.interface.presentation.arm.view import build_view_section
-
         drawn_path, names = self.drawn_path, np.array(self.arm.joint_names)
         readings = []
         for sample in self.frame_indices:
@@ -219,47 +209,23 @@ class RunDrawing:
         )
 
     def _draw_errors(self) -> Picture:
-        from holdfast.interface.report.figures import svg
-        from holdfast.interface.report.motions import TimePanel, motion_figure
-        from holdfast.interface.report.page import Picture
-
         drawn_path = self.drawn_path
         travelled_distance = np.linalg.norm(drawn_path.x - drawn_path.x[0], axis=1)
         panels = [
             *self.build_panels(),
-            TimePanel(drawn_path.time, travelled_distance, "distance of the tool from its start, m", "Tool"),
+            report.motions.TimePanel(drawn_path.time, travelled_distance, "distance of the tool from its start, m", "Tool"),
         ]
-        figure = motion_figure(panels, self.caption, self._time_label)
+        figure = report.motions.motion_figure(panels, self.caption, self._time_label)
         caption = f"Errors over time on a log scale, and the distance of the tool from its start. {self.omission_note}".strip()
-        return Picture(svg(figure, "error", "Error of the end effector over time"), caption)
+        return Picture(report.svg(figure, "error", "Error of the end effector over time"), caption)
 
     def _draw_joints(self) -> Picture:
-        from holdfast.interface.report.page import Picture
-        from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples
-
-        panels = []
-        for index, joint in enumerate(self.arm.joints):
-            scale, unit = joint.display_unit
-            values = scale * self.drawn_path.q[:, index]
-            lines = [TimelineLine(values, "position", "first")]
-            margin = float(np.ptp(values)) + 0.1 * (1.0 if joint.prismatic else 100.0)
-            for limit in (joint.lower, joint.upper):
-                # A limit far away would only flatten the curve.
-                if np.isfinite(limit) and np.abs(values - scale * limit).min() < margin:
-                    lines.append(TimelineLine(np.full(len(values), scale * limit), "limit", "compared"))
-            locked = " (locks)" if np.isfinite(self.lock_time[index]) else ""
-            panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
-        image = draw_small_multiples(self.drawn_path.time, panels, "Joint positions over time", self._time_label)
-        return Picture(
-            image, f"Joint positions. Dashed lines are joint limits, where one is near. {self.omission_note}".strip()
-        )
+        path, locks = self.drawn_path, np.isfinite(self.lock_time)
+        titles = [f"{name}{' (locks)' * bool(lock)}" for name, lock in zip(self.arm.joint_names, locks, strict=True)]
+        return draw_joint_positions(self.arm, path.time, path.q, titles, self._time_label, self.omission_note)
 
     def _report_contacts(self) -> list[Block]:
         """Draw the smallest distance of the arm from itself and from the objects of its cell."""
-        from holdfast.interface.report.figures import svg
-        from holdfast.interface.report.motions import TimePanel, motion_figure
-        from holdfast.interface.report.page import Picture, Text
-
         clearance = self.runs.clearance
         if clearance is None:
             return []
@@ -269,10 +235,10 @@ class RunDrawing:
             for contact in self.contacts[:1]
             if contact.time <= drawn_path.time[-1]
         )
-        panel = TimePanel(
+        panel = report.motions.TimePanel(
             drawn_path.time, clearance(drawn_path.q), label, "Smallest distance of the arm", (0.0, "contact"), moments
         )
-        figure = motion_figure([panel], "", self._time_label)
+        figure = report.motions.motion_figure([panel], "", self._time_label)
         caption = f"Below 0 the arm touches something. {capitalise_first(describe_shape(clearance, 0.0))}."
-        image = svg(figure, "clearance", "Smallest distance of the arm from itself and from objects over time")
+        image = report.svg(figure, "clearance", "Smallest distance of the arm from itself and from objects over time")
         return [Picture(image, caption), *([] if self.contacts else [Text("The arm touches nothing.")])]

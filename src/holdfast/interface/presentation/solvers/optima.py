@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,17 +17,14 @@ from holdfast.core.formatting import capitalise_first, format_number, format_per
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
-from holdfast.interface.presentation.printing import to_json_types
+from holdfast.interface.report.page import Section
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
 from holdfast.kinematics.indices.susceptibility.measure import Susceptibility
 from holdfast.kinematics.solvers.optima import Optima
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Section
-
 
 _NEGLIGIBLE_CHANGE = 1e-4  # relative change below which the configuration before counts as the best one
 _MAX_RELATIVE_CHANGE = 10.0  # larger relative changes are not printed, because a percentage would not be informative
@@ -70,7 +67,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
             },
         }
 
-    data = {
+    return {
         **optima.arm.entry(),
         "objective": asked or _describe_objective(optima),
         "better": optima.objective.better,
@@ -83,8 +80,6 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
         "cap": None if optima.cap is None else asdict(optima.cap) | {"remaining": _format_remaining_failures(optima)},
         "poses": [build_row(k) for k in range(len(optima_rows.poses))],
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def present(optima: Optima, asked: str = "") -> Presentation:
@@ -234,8 +229,6 @@ def _compare_clearance(rows: Optima) -> tuple[list[Fact], str]:
 
 
 def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     pose_index = int(rows.success.argmax())
     caption = f"The arm at its best configuration and, transparent, at {reference}"
     caption += "." if rows.free else ". Both have the same tool pose."
@@ -257,15 +250,8 @@ def to_csv(optima: Optima, path: Path) -> Path:
     optima_rows = optima.rows
     names = [f"{joint.name}_{joint.unit}" for joint in optima_rows.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
-    facts = (
-        optima_rows.value_before,
-        optima_rows.value,
-        optima_rows.starts,
-        optima_rows.agreeing,
-        optima_rows.position_error,
-        optima_rows.rotation_error,
-    )
-    rows = np.column_stack([*facts, optima_rows.q])
+    facts = ("value_before", "value", "starts", "agreeing", "position_error", "rotation_error")
+    rows = np.column_stack([*(getattr(optima_rows, name) for name in facts), optima_rows.q])
     with open_replacement(path, "configurations") as file:
         table = csv.writer(file)
         table.writerow(map(escape_formula, columns + names))

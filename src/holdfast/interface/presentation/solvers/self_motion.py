@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_percent, list_alternatives
 from holdfast.core.status import Status
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.report.page import Section
 from holdfast.kinematics.solvers.joint_space import is_unlimited
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.kinematics.solvers.self_motions import SelfMotion
-    from holdfast.model.arm.machine import Joint
+from holdfast.kinematics.solvers.self_motions import SelfMotion
+from holdfast.model.arm.configurations import sampling_limits
+from holdfast.model.arm.machine import Joint
 
 _MAX_DRAWN_CURVES = 6  # only the longest curves are drawn
 _DRAWN_CONFIGURATIONS = 6
@@ -118,8 +117,6 @@ def _format_target(motion: SelfMotion) -> str:
 
 def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
     """Return the joints that may lock at any position, and the allowed fraction of the range of each other joint."""
-    from holdfast.model.arm.configurations import sampling_limits
-
     free: list[str] = []
     restricted: dict[str, float] = {}
     lower, upper = sampling_limits(motion.arm)
@@ -177,8 +174,6 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
 
 def _animate_self_motion(motion: SelfMotion) -> list[Section]:
     """Animate the arm on its longest self-motion curve; draw a few configurations if there are no curves."""
-    from holdfast.interface.presentation.arm.view import build_view_section
-
     if not len(motion.q):
         return []
     if not motion.components:
@@ -211,7 +206,7 @@ def _describe_figure(motion: SelfMotion) -> FigureSpec:
     """Return the figure of the curves; its preview omits lock ranges that are not known, which take long to compute."""
     known_ranges: Any = [[]] * motion.arm.n if motion.bounds is None else motion.bounds
 
-    def draw() -> Figure:
+    def draw() -> report.Figure:
         from holdfast.kinematics.workspace.bounds import joint_bounds
 
         lock_ranges = known_ranges
@@ -228,16 +223,12 @@ def _describe_figure(motion: SelfMotion) -> FigureSpec:
     return FigureSpec(draw, "Allowed lock positions", caption, preview=partial(_draw_self_motion, motion, known_ranges))
 
 
-def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> Figure:
-    from holdfast.interface.presentation.arm.view import choose_views
-    from holdfast.interface.report.manifolds import JointPanel, self_motion_figure
-    from holdfast.model.arm.configurations import sampling_limits
-
+def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> report.Figure:
     arm = motion.arm
     lower, upper = sampling_limits(arm)
     factors = np.array([joint.display_unit[0] for joint in arm.joints])
     panels = [
-        JointPanel(
+        report.JointPanel(
             f"{joint.name}, {joint.display_unit[1]}",
             [(factor * begin, factor * finish) for begin, finish in joint_arcs],
             (factor * lower_limit, factor * upper_limit),
@@ -257,4 +248,4 @@ def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[f
     views = choose_views(arm, chains) if len(q) else []
     omission_note = f"; the {_MAX_DRAWN_CURVES} longest curves are drawn" if len(motion.components) > _MAX_DRAWN_CURVES else ""
     caption = f"{arm.name}, task {motion.task.name}: {motion.summary}{omission_note}"
-    return self_motion_figure(panels, curves, chains, views, caption)
+    return report.manifolds.self_motion_figure(panels, curves, chains, views, caption)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.designs.figures import draw_parameters, draw_pareto_front
 from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import format_index_name, format_level
-from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Picture, Text
 from holdfast.kinematics.indices.index import by_name
 from holdfast.kinematics.indices.own_file import check_function_digest
@@ -29,7 +29,7 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
     factors = np.array([parameter.display_unit[0] for parameter in space.parameters])
     shown_values = swept.values * factors
     parameter_labels = [f"{parameter.name}, {parameter.display_unit[1]}" for parameter in space.parameters]
-    label = figures.format_label(f"{format_index_name(swept)} of {format_level(swept)} of the poses, at least")
+    label = report.format_label(f"{format_index_name(swept)} of {format_level(swept)} of the poses, at least")
     best, front = choose_best_design(swept.guaranteed, swept.reach), find_pareto_front(swept.reach, swept.guaranteed)
     baseline = None if swept.start is None else (float(swept.reach[swept.start]), float(swept.guaranteed[swept.start]))
     figure = draw_pareto_front(swept.reach, swept.guaranteed, front.tolist(), best, baseline, label, _find_index_bound(swept))
@@ -84,10 +84,10 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         "evaluates its result on held-out poses."
     )
     return [
-        Picture(figures.svg(figure, f"front{place}", "Index quantile against reach of all designs"), explanation),
+        Picture(report.svg(figure, f"front{place}", "Index quantile against reach of all designs"), explanation),
         build_table_block(designs.texts()),
         Picture(
-            figures.svg(by_parameter, f"parameters{place}", "Index quantile against each parameter"),
+            report.svg(by_parameter, f"parameters{place}", "Index quantile against each parameter"),
             "Each panel shows all designs against one parameter; the other parameters also vary.",
         ),
         build_table_block(parameters.texts()),

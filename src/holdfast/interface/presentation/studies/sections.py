@@ -9,13 +9,11 @@ import numpy as np
 
 from holdfast.core.formatting import format_as_given, format_half_width, format_number, format_percent
 from holdfast.core.sweeps.study import Study
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import get_index_key, read_cells
 from holdfast.interface.presentation.studies.designs import build_sweep_blocks
-from holdfast.interface.report import figures
-from holdfast.interface.report.figures import Curve, Mark
-from holdfast.interface.report.outcomes import Gains, Stack, fraction_figure, stack_figure
 from holdfast.interface.report.page import Block, Callout, Picture, Section
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.single_points import Structure, explain
@@ -81,8 +79,8 @@ def build_ranking_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
             np.array([np.nan if fraction is None else getattr(fraction, attribute) for fraction in fractions])
             for attribute in ("value", "low", "high")
         )
-        shares.append(Gains(label=name, value=value, low=lower, high=upper))
-    figure = fraction_figure(
+        shares.append(report.Gains(label=name, value=value, low=lower, high=upper))
+    figure = report.fraction_figure(
         [standing.question for standing in ranking], shares, "fraction of the poses, or of the motions; bars: 95 % interval"
     )
     rows: list[list[Any]] = []
@@ -103,7 +101,7 @@ def build_ranking_blocks(ranking: Sequence[ArmRanking]) -> list[Block]:
     )
     head = ["question", "best arm", "fraction, with 95 % interval", "next", "difference", "samples of each arm"]
     return [
-        Picture(figures.svg(figure, "standings", "Fractions of all arms for every question"), "Larger is better in every row."),
+        Picture(report.svg(figure, "standings", "Fractions of all arms for every question"), "Larger is better in every row."),
         _tabulate(explanation, head, rows),
     ]
 
@@ -192,7 +190,7 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
             (
                 title,
                 [
-                    Curve(axis_values, distribution.cdf(axis_values), _name_arm(entry, matching))
+                    report.Curve(axis_values, distribution.cdf(axis_values), _name_arm(entry, matching))
                     for entry, distribution in group
                     if distribution is not None
                 ],
@@ -200,9 +198,9 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
             for title, group in samples
         ]
         unit_text = format_unit(index.unit, ", ")
-        figure = figures.compare_cdf_figure(
+        figure = report.compare_cdf_figure(
             panels,
-            [Mark(limit, f"threshold {format_as_given(limit)}{format_unit(index.unit)}")],
+            [report.Mark(limit, f"threshold {format_as_given(limit)}{format_unit(index.unit)}")],
             f"worst-case {index.name}{unit_text}",
             ylabel="fraction with a smaller value, F",
             log=is_logarithmic,
@@ -217,7 +215,7 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
             f"{'0' if index.better == 'larger' else 'infinite'}."
         )
         description = f"Cumulative distributions of the {index.name} of all arms"
-        blocks.append(Picture(figures.svg(figure, f"cdf{number_}", description), text))
+        blocks.append(Picture(report.svg(figure, f"cdf{number_}", description), text))
     return blocks
 
 
@@ -262,13 +260,13 @@ def _build_law_blocks(laws: Sequence[DrivenCell]) -> list[Block]:
         shares = np.stack([result.ends[:-1].mean(axis=0) for result in arm_results])
         lower, upper = (np.array([getattr(result.mean_fraction, bound) for result in arm_results]) for bound in ("low", "high"))
         stacks.append(
-            Stack(name=arm, bars=[result.labels["law"] for result in arm_results], shares=shares, low=lower, high=upper)
+            report.Stack(name=arm, bars=[result.labels["law"] for result in arm_results], shares=shares, low=lower, high=upper)
         )
     motion_count = format_count_range([result.motions for result in laws])
-    figure = stack_figure(stacks, _OUTCOME_LABELS, "fraction of the runs, averaged over the locked joint")
+    figure = report.stack_figure(stacks, _OUTCOME_LABELS, "fraction of the runs, averaged over the locked joint")
     blocks: list[Block] = [
         Picture(
-            figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
+            report.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
             f"{motion_count} random motions of each arm between the end-effector positions of random configurations, each "
             "repeated with every joint locked from the start. Not every target is within reach of the arm with a locked joint. "
             "Undecided: stopped at the time limit or near a singular configuration.",

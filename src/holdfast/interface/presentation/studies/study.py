@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from markupsafe import Markup
 
 from holdfast.core.errors import StoreError
 from holdfast.core.formatting import format_count, format_duration, list_alternatives
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
+from holdfast.core.sweeps.study_merge import MergeReport
 from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
+from holdfast.interface.presentation.studies.sections import build_sections
+from holdfast.interface.report import page
+from holdfast.interface.report.page import Block, Code, Text
 from holdfast.studies.assessment.plan import AssessmentPlan
 from holdfast.studies.assessment.single_points import Structure, structure
 from holdfast.studies.study_files import results
 from holdfast.studies.study_files.ranking import Ended, Key, make_structure_key, rank_arms
 from holdfast.studies.study_files.results import AssessedCell
 from holdfast.studies.study_files.study_file import read_thresholds
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Block
 
 _MAX_TABLE_CELLS = 40  # combinations (cells of the study) in a table
 
@@ -39,20 +44,19 @@ def to_dict(study: Study) -> dict[str, Any]:
         "chunks_done": sum(cell.chunks_done for cell in cells),
         "thread_seconds": sum(cell.seconds for cell in cells),
         "cells": [
-            {
-                "name": cell.name,
-                "chunks": cell.chunks,
-                "chunks_done": cell.chunks_done,
-                "rows": cell.rows,
-                "rows_done": cell.rows_done,
-            }
+            {attribute: getattr(cell, attribute) for attribute in ("name", "chunks", "chunks_done", "rows", "rows_done")}
             for cell in cells
         ],
         "made_by": study.makers,
     }
 
 
-def present(study: Study) -> Presentation:
+def present(result: Study | MergeReport) -> Presentation:
+    """Present the progress of a study, or the chunks that a merge of its folders added."""
+    return _present_merge(result) if isinstance(result, MergeReport) else _present_progress(result)
+
+
+def _present_progress(study: Study) -> Presentation:
     """Present the progress of a study; if there are many cells, the table lists only those that are not complete."""
     cells = study.status()
     done, total = sum(cell.chunks_done for cell in cells), sum(cell.chunks for cell in cells)
@@ -75,6 +79,27 @@ def present(study: Study) -> Presentation:
     return Presentation(study.name, answer, tables=[TableSpec(title, columns, rows)])
 
 
+def _present_merge(merge: MergeReport) -> Presentation:
+    """Present the added and the existing chunks, the machines, and the progress of the study."""
+    lines = []
+    if merge.close:
+        lines.append(f"{merge.close} chunks already existed and agree to 1e-12.")
+    if merge.apart:
+        cell, chunk = merge.apart[0]
+        lines.append(
+            f"{len(merge.apart)} chunks already existed with different values (first: chunk {chunk + 1} of '{cell}'); those of "
+            f"'{merge.study.path}' were not replaced."
+        )
+    for maker in merge.study.makers:
+        packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+        lines.append(f"Computed on {maker['processor']}: Python {maker['python']}, {packages}.")
+    if len(merge.study.makers) > 1:
+        lines.append("Versions or processors differ: values agree with those of a single machine to 1e-12, not bit for bit.")
+    progress = _present_progress(merge.study)
+    answer = f"{merge.study.path}: {merge.added} chunks added; {merge.both} already existed and are identical bit for bit"
+    return replace(progress, answer=answer, lines=[*lines, progress.answer])
+
+
 @reports_progress("drawing the report")
 def write(study: Study, path: Path, command: str = "") -> Path:
     """Write the report of a study, complete or not; the report contains the file and the command that repeat the study.
@@ -82,9 +107,6 @@ def write(study: Study, path: Path, command: str = "") -> Path:
     Raises:
         StoreError: No chunk has been computed, a chunk is damaged, or the file cannot be written.
     """
-    from holdfast.interface.presentation.renderers import build_page
-    from holdfast.interface.report import page
-
     return page.write(build_page(present_results(study), command), path)
 
 
@@ -116,18 +138,13 @@ def present_results(study: Study) -> Presentation:
     missing = f"{chunks_done:,} of {chunk_count:,} chunks have been computed. Repeat the command to resume."
     arm_names = list(dict.fromkeys(cell["labels"]["arm"] for cell in study.cells))
 
-    def build_sections() -> Sequence[Any]:
-        from holdfast.interface.presentation.studies.sections import build_sections
-
-        return build_sections(study, assessed, laws, sweeps, limits, fatal_structures, ranking)
-
     return Presentation(
         study.name,
         compose_answer(ranking, sweeps, has_rankings=bool(assessed or laws or not sweeps)),
         about=f"A study of {format_count(len(arm_names), 'arm')}: {', '.join(arm_names)}",
         notices=[Notice(missing, "bad", "Not complete")] if chunks_done < chunk_count else [],
         facts=list_leaders(ranking),
-        sections=build_sections,
+        sections=partial(build_sections, study, assessed, laws, sweeps, limits, fatal_structures, ranking),
         method=_list_method(study, assessed),
         again=partial(_build_rerun_blocks, study),
     )
@@ -198,10 +215,6 @@ def _describe_maker(maker: dict[str, Any]) -> str:
 
 
 def _build_rerun_blocks(study: Study) -> list[Block]:
-    from markupsafe import Markup
-
-    from holdfast.interface.report.page import Code, Text
-
     blocks: list[Block] = [Text("The same file, versions and kind of processor give the same bits.", quiet=True)]
     if study.source:
         lines = [line for line in study.source.splitlines() if line.strip() and not line.lstrip().startswith("#")]

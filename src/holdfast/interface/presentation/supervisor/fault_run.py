@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.contacts import list_contacts
 from holdfast.interface.presentation.collision.shape import describe_shape
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.response.supervisor.run import OUTCOME_PHRASES
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.response.supervisor.run import FaultRun
+from holdfast.interface.report.page import Section
+from holdfast.response.supervisor.run import OUTCOME_PHRASES, FaultRun
 
 _RESPONSE_PHRASES = {
     "none": "no fault response",
@@ -109,46 +105,39 @@ def present(run: FaultRun) -> Presentation:
 
 
 def _build_sections(run: FaultRun) -> Sequence[Section]:
-    from holdfast.interface.presentation.arm.view import scene
-    from holdfast.interface.report.page import Picture, Section
-
     frame_indices = np.linspace(0, len(run.time) - 1, min(201, len(run.time))).astype(int)
     locked_joints = {} if run.degraded is None else run.degraded.locked
     brake_times = {
         action.joint: action.time for action in run.actions if action.what == "brake" and action.joint in locked_joints
     }
-    caption = "Measured motion of the arm; a braked joint is marked from the time of its brake."
-    motion_scene = scene(
+    section = build_view_section(
+        "The motion",
         run.arm,
         run.q[frame_indices],
+        "Measured motion of the arm; a braked joint is marked from the time of its brake.",
         time=run.time[frame_indices],
         readings=[f"{instant:.2f} s" for instant in run.time[frame_indices]],
         locked=brake_times,
         targets=[run.target if run.law.task.angular else run.target[:3, 3]],
         cell=None if run.clearance is None else run.clearance.cell,
     )
-    return [Section("The motion", [Picture(motion_scene.to_html("motion", caption), caption)])]
+    return [section]
 
 
-def _draw_run(run: FaultRun) -> Figure:
+def _draw_run(run: FaultRun) -> report.Figure:
     """Draw over time the distance of the tool from its target, the tracking errors of the joints, and the joints."""
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report import figures as style
-
     samples = np.unique(np.linspace(0, len(run.time) - 1, _MAX_POINTS).astype(int))
     time, faulty_joints = run.time[samples], {event.joint for event in run.events}
     unit = "rad or m" if run.arm.prismatic.any() else "rad"
-    with style.style():
-        figure = Figure(figsize=(1.25 * style.WIDTH_IN, 6.2))
+    with report.styled_figure(1.25 * report.WIDTH_IN, 6.2) as figure:
         distance_axes, error_axes, joint_axes = figure.subplots(3, 1, sharex=True)
-        distance_axes.plot(time, 1e3 * run.position_error[samples], color=style.BLUE)
+        distance_axes.plot(time, 1e3 * run.position_error[samples], color=report.BLUE)
         distance_axes.set(ylabel="mm", title="Distance of the tool from its target", ylim=(0, None))
         tracking_error = np.abs(run.reference - run.q_measured)
         for index, name in enumerate(run.arm.joint_names):
             is_faulty = name in faulty_joints
             line_style = {
-                "color": style.ORANGE if is_faulty else style.SKY,
+                "color": report.ORANGE if is_faulty else report.SKY,
                 "linewidth": 1.6 if is_faulty else 0.9,
                 "zorder": 2 + is_faulty,
             }
@@ -159,18 +148,18 @@ def _draw_run(run: FaultRun) -> Figure:
         if faulty_joints:
             joint_axes.legend(loc="best", fontsize=8)
         _mark_events(run, [distance_axes, error_axes, joint_axes])
-        figure.suptitle(style.format_label(f"{run.arm.name}, {run.law.name}: {run.outcome}", 200), fontsize=9, color=style.SOFT)
-        return style.settle_layout(figure)
+        figure.suptitle(
+            report.format_label(f"{run.arm.name}, {run.law.name}: {run.outcome}", 200), fontsize=9, color=report.SOFT
+        )
+    return figure
 
 
-def _mark_events(run: FaultRun, panels: Sequence[Axes]) -> None:
+def _mark_events(run: FaultRun, panels: Sequence[report.Axes]) -> None:
     """Draw a vertical line for each fault and action, and list them in the first panel."""
-    from holdfast.interface.report import figures as style
-
-    moments = [(event.onset, f"fault: {event.kind}", style.ORANGE) for event in run.events if event.onset <= run.time[-1]]
-    moments += [(action.time, action.what, style.INK) for action in run.actions]
+    moments = [(event.onset, f"fault: {event.kind}", report.ORANGE) for event in run.events if event.onset <= run.time[-1]]
+    moments += [(action.time, action.what, report.INK) for action in run.actions]
     for time, _, color in moments:
         for axes in panels:
-            axes.axvline(time, color=color, linewidth=0.9, linestyle="--" if color == style.INK else "-")
+            axes.axvline(time, color=color, linewidth=0.9, linestyle="--" if color == report.INK else "-")
     legend_text = "\n".join(f"{time:.3f} s  {label}" for time, label, _ in sorted(moments)[:9])
     panels[0].text(0.985, 0.95, legend_text, transform=panels[0].transAxes, fontsize=7.5, ha="right", va="top")

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from holdfast.core.errors import InputError
+from holdfast.interface.report import page
+from holdfast.interface.report.page import Page, Section, Table, Text
 from holdfast.teleop.protocol.protocol import Protocol
-
-if TYPE_CHECKING:
-    from holdfast.interface.report.page import Page, Section
 
 
 def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
@@ -26,8 +24,6 @@ def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Pa
     Raises:
         InputError: Fewer than one subject.
     """
-    from holdfast.interface.report.page import Page, Section, Table, Text
-
     count = protocol.subjects if subjects is None else subjects
     if count < 1:
         raise InputError(f"subjects is {count}; it must be 1 or more")
@@ -55,8 +51,6 @@ def build_allocation_page(protocol: Protocol, subjects: int | None = None) -> Pa
 
 
 def _subject_sheet(protocol: Protocol, subject: int, rows: int) -> Section:
-    from holdfast.interface.report.page import Section, Table
-
     scenario_count = len(protocol.scenarios)
     session = protocol.session_order(subject % rows, subject)
     table_rows = []
@@ -89,6 +83,4 @@ def write_allocation(protocol: Protocol, path: str | Path, subjects: int | None 
         InputError: Fewer than one subject.
         StoreError: The file cannot be written.
     """
-    from holdfast.interface.report import page
-
     return page.write(build_allocation_page(protocol, subjects), path)

@@ -5,38 +5,32 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_number
+from holdfast.interface import report
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.presentation import FigureSpec, Notice, Presentation
-from holdfast.interface.presentation.printing import to_json_types
 from holdfast.interface.presentation.teleop.report_tables import build_tables, format_p_relation
 from holdfast.interface.presentation.teleop.tables import write_tables
+from holdfast.interface.report.page import Section
+from holdfast.teleop.analysis.mixed_model import MixedModel
 from holdfast.teleop.analysis.result import Analysis, Paths
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.teleop.analysis.mixed_model import MixedModel
-    from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.protocol.protocol import Protocol
 
 
 def to_dict(analysis: Analysis) -> dict[str, Any]:
     """Return the subjects, and the rows of every table, as JSON data."""
-    data = {
+    return {
         "subjects": list(analysis.observed.subjects),
         "simulated": analysis.is_simulated,
         "left_out": analysis.left_out,
         "notes": analysis.notes,
         "tables": {name: table.to_dict("records") for name, table in analysis.tables.items()},
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def write(
@@ -189,7 +183,7 @@ def _build_sections(
     return build_sections(analysis, protocol, paths, shown_tasks)
 
 
-def _draw(analysis: Analysis, name: str) -> Figure:
+def _draw(analysis: Analysis, name: str) -> report.Figure:
     from holdfast.interface.presentation.teleop.sections import draw_figure
 
     return draw_figure(analysis, name)

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from holdfast.core.typing import IndexArray
+from holdfast.interface import report
+from holdfast.interface.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
 from holdfast.teleop.bank.selection import Binning
 from holdfast.teleop.bank.tasks import TaskBank
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 
 def bank_figure(
     bank: TaskBank, cells: Binning, chosen: IndexArray | None = None, *, special: IndexArray | None = None
-) -> Figure:
+) -> report.Figure:
     """Draw CPM4/CPM3 of the tasks of a bank against CPM3, with the grid of cells and the numbers of the chosen tasks.
 
     Args:
@@ -29,14 +25,9 @@ def bank_figure(
 
     Source: Goel et al. 2003, Fig. 2.
     """
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.figures import WIDTH_IN, legend_below, settle_layout, style
-
     chosen_tasks = np.array([], dtype=np.int64) if chosen is None else np.asarray(chosen, dtype=np.int64)
     special_tasks = np.array([], dtype=np.int64) if special is None else np.asarray(special, dtype=np.int64)
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 6.2))
+    with report.styled_figure(report.WIDTH_IN, 6.2) as figure:
         axes = figure.add_subplot()
         _draw_bank(axes, bank, cells)
         _label_tasks(axes, bank, chosen_tasks, 1, special=False)
@@ -50,13 +41,11 @@ def bank_figure(
         if missing_numbers:
             title += f", task {' and '.join(missing_numbers)} among them"
         axes.set_title(title, fontweight="normal", fontsize=9.5)
-        legend_below(figure, axes, 4)
-        return settle_layout(figure)
+        report.legend_below(figure, axes, 4)
+    return figure
 
 
-def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
-    from holdfast.interface.report.figures import BLUE, FAINT, INK, SOFT
-
+def _draw_bank(axes: report.Axes, bank: TaskBank, cells: Binning) -> None:
     easiest, hardest = cells.difficulty[[0, -1]]
     lower, upper = cells.ratio[[0, -1]]
     tolerant_scenario = bank.scenarios[bank.scenario_index("failure-tolerant", failed=True)].number
@@ -86,10 +75,8 @@ def _draw_bank(axes: Axes, bank: TaskBank, cells: Binning) -> None:
     axes.grid(visible=False)
 
 
-def _label_tasks(axes: Axes, bank: TaskBank, rows: IndexArray, numbers: int | IndexArray, special: bool) -> None:
+def _label_tasks(axes: report.Axes, bank: TaskBank, rows: IndexArray, numbers: int | IndexArray, special: bool) -> None:
     from matplotlib.patheffects import withStroke
-
-    from holdfast.interface.report.figures import BLUE, INK, ORANGE
 
     if not len(rows):
         return

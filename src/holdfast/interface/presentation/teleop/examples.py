@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.teleop import figures
 from holdfast.interface.presentation.teleop.motions import Motion, motions_figure, ring
-from holdfast.interface.report.figures import svg
 from holdfast.interface.report.page import Block, Picture
 from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis, Paths
 from holdfast.teleop.analysis.tables import median_operator
-
-if TYPE_CHECKING:
-    from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.protocol.protocol import Protocol
 
 
 def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | None, paths: Paths | None) -> list[Block]:
@@ -54,7 +50,7 @@ def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | Non
         "in each scenario, over the trials that reached the target. Circles: computer control."
     )
     figure = figures.measures_figure(values, computer_values, [condition.scenario for condition in observed.conditions])
-    return [*blocks, Picture(svg(figure, f"task-{task}-measures", caption), caption)]
+    return [*blocks, Picture(report.svg(figure, f"task-{task}-measures", caption), caption)]
 
 
 def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths: Paths, operator_note: str) -> list[Block]:
@@ -99,4 +95,4 @@ def _draw_motions(analysis: Analysis, task_index: int, protocol: Protocol, paths
     )
     if healthy_ring is not None:
         caption += " Circle: workspace of the healthy arm; grey: part lost by the failure (not shown to operators)."
-    return [Picture(svg(motions_figure(motions), f"task-{task}-motions", caption), caption)]
+    return [Picture(report.svg(motions_figure(motions), f"task-{task}-motions", caption), caption)]

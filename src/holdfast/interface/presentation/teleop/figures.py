@@ -15,17 +15,8 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import (
-    BLUE,
-    INK,
-    ORANGE,
-    SOFT,
-    WIDTH_IN,
-    format_label,
-    legend_below,
-    settle_layout,
-    style,
-)
+from holdfast.interface.report.figures import WIDTH_IN, format_label, legend_below, styled_figure
+from holdfast.interface.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES
@@ -57,8 +48,7 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
         panels: Contents of each panel.
         names: Names of the groups.
     """
-    with style():
-        figure = Figure(figsize=(WIDTH_IN * len(panels) / 3 if len(panels) < 3 else WIDTH_IN, 3.9))
+    with styled_figure(WIDTH_IN * len(panels) / 3 if len(panels) < 3 else WIDTH_IN, 3.9) as figure:
         for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
             for group, name in enumerate(names):
                 in_group = panel.groups == group
@@ -79,7 +69,7 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
                 axis_end = float(values[np.isfinite(values)].max(initial=1.0))
                 axes.plot([0, axis_end], [0, axis_end], color=SOFT, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
         legend_below(figure, figure.axes[0], len(names))
-        return settle_layout(figure)
+    return figure
 
 
 def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
@@ -92,8 +82,7 @@ def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
     table = analysis.table("tasks")
     kinds = [("median_operator", titles[0])] + ([] if analysis.computer is None else [("computer", titles[1])])
     scenarios = [condition.scenario for condition in analysis.conditions]
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.5 * len(kinds)))
+    with styled_figure(WIDTH_IN, 3.5 * len(kinds)) as figure:
         for axes, (kind, title) in zip(figure.subplots(len(kinds), 1, squeeze=False)[:, 0], kinds, strict=True):
             values = np.column_stack([table[f"{kind}_cpm_{scenario}"].to_numpy(dtype=np.float64) for scenario in scenarios])
             order = np.argsort(np.where(np.isnan(values[:, 0]), np.inf, values[:, 0]), kind="stable")
@@ -127,7 +116,7 @@ def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
             )
             axes.grid(axis="x", visible=False)
         legend_below(figure, figure.axes[0], len(scenarios))
-        return settle_layout(figure)
+    return figure
 
 
 def draw_cell_means(analysis: Analysis) -> Figure:
@@ -135,8 +124,7 @@ def draw_cell_means(analysis: Analysis) -> Figure:
     from scipy import stats
 
     values, names = analysis.cells.values, analysis.cells.groups
-    with style():
-        figure = Figure(figsize=(0.72 * WIDTH_IN, 3.9))
+    with styled_figure(0.72 * WIDTH_IN, 3.9) as figure:
         axes = figure.add_subplot()
         positions = np.arange(len(names))
         for series, law in enumerate(analysis.cells.laws):
@@ -176,7 +164,7 @@ def draw_cell_means(analysis: Analysis) -> Figure:
         axes.set(ylabel="mean CPM of a subject, failed arm", ylim=(0, None))
         axes.grid(axis="x", visible=False)
         legend_below(figure, axes, len(analysis.cells.laws))
-        return settle_layout(figure)
+    return figure
 
 
 def measures_figure(
@@ -189,12 +177,11 @@ def measures_figure(
         computer: Value under computer control in each scenario, for CPM and M1 to M11; None if not available.
         scenarios: Numbers of the scenarios.
     """
-    with style():
-        columns = 5
-        row_count = -(-len(values) // columns)
-        height = 2.2 * row_count + 0.9
-        # Fixed layout: an automatic layout of this many panels would take most of the time.
-        figure = Figure(figsize=(WIDTH_IN, height))
+    columns = 5
+    row_count = -(-len(values) // columns)
+    height = 2.2 * row_count + 0.9
+    # Fixed layout: an automatic layout of this many panels would take most of the time.
+    with styled_figure(WIDTH_IN, height) as figure:
         figure.set_layout_engine("none")
         layout = {"left": 0.05, "right": 0.995, "top": 1 - 0.4 / height, "bottom": 0.8 / height, "wspace": 0.34, "hspace": 0.46}
         panels = figure.subplots(row_count, columns, squeeze=False, gridspec_kw=layout).ravel()
@@ -212,7 +199,7 @@ def measures_figure(
         for axes in panels[max(0, len(values) - columns) : len(values)]:
             axes.set_xlabel("scenario")
         figure.legend(handles=_legend_handles(computer is not None), loc="lower center", ncols=5, columnspacing=2.0)
-        return settle_layout(figure)
+    return figure
 
 
 def label_measure(measure: int) -> tuple[str, float]:
@@ -294,8 +281,7 @@ def draw_power(analysis: Analysis) -> Figure:
     """Draw the statistical power against the number of subjects, one panel for each effect."""
     table = analysis.table("power_curve")
     effects = list(dict.fromkeys(table["effect"]))
-    with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.3))
+    with styled_figure(WIDTH_IN, 3.3) as figure:
         for axes, effect in zip(figure.subplots(1, len(effects), sharey=True), effects, strict=True):
             effect_rows = table[table["effect"] == effect]
             subject_counts = effect_rows["subjects"].to_numpy(dtype=np.float64)
@@ -328,4 +314,4 @@ def draw_power(analysis: Analysis) -> Figure:
             axes.set(xlabel="subjects", title=format_label(effect), ylim=(0, 1.03))
         figure.axes[0].set_ylabel("probability of significance")
         legend_below(figure, figure.axes[0], 2)
-        return settle_layout(figure)
+    return figure

@@ -14,7 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.report.figures import FAINT, INK, ORANGE, SOFT, WIDTH_IN, format_label, settle_layout, style
+from holdfast.interface.report.figures import WIDTH_IN, format_label, styled_figure
+from holdfast.interface.report.palette import FAINT, INK, ORANGE, SOFT
 from holdfast.model.arm.model import Arm
 
 _TIME_COLORMAP = LinearSegmentedColormap.from_list("time", ["#b9d6ee", "#0a5c9e", "#04233f"])
@@ -79,11 +80,10 @@ class Motion:
 
 def motions_figure(motions: Sequence[Motion]) -> Figure:
     """Draw motions of trials side by side, darker with time, with the lost part of the workspace in grey (Figs. 5 to 7)."""
-    with style():
-        columns = min(4, len(motions))
-        row_count = -(-len(motions) // columns)
-        height = 0.45 + row_count * (WIDTH_IN / columns + 0.3)
-        figure = Figure(figsize=(WIDTH_IN, height))
+    columns = min(4, len(motions))
+    row_count = -(-len(motions) // columns)
+    height = 0.45 + row_count * (WIDTH_IN / columns + 0.3)
+    with styled_figure(WIDTH_IN, height) as figure:
         figure.set_layout_engine("none")
         layout = {
             "left": 0.055,
@@ -139,7 +139,7 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
         panels[0].set(
             xlim=(center[0] - half_width, center[0] + half_width), ylim=(center[1] - half_width, center[1] + half_width)
         )
-        return settle_layout(figure)
+    return figure
 
 
 def _find_bounding_box(motions: Sequence[Motion]) -> tuple[FloatArray, FloatArray]:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import format_decimals, format_number
 from holdfast.interface.presentation.presentation import Header, TableSpec
 from holdfast.teleop.analysis.result import Analysis
-
-if TYPE_CHECKING:
-    from holdfast.teleop.analysis.variance import Anova
+from holdfast.teleop.analysis.variance import Anova
 
 _SMALLEST_PRINTED_P = 1e-4
 

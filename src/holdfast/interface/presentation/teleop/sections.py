@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.core.formatting import format_decimals, format_number, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.teleop import figures as drawing
 from holdfast.interface.presentation.teleop.examples import build_example_blocks
 from holdfast.interface.presentation.teleop.report_tables import build_tables, format_p_value, format_range, make_table
-from holdfast.interface.report.figures import svg
 from holdfast.interface.report.page import Block, Picture, Section, Text
 from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis, Paths
-
-if TYPE_CHECKING:
-    from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.protocol.protocol import Protocol
 
 _DIFFICULTY_LABELS = {
     "anticipated": "anticipated difficulty: CPM of the computer",
@@ -48,7 +44,7 @@ def build_sections(
     ]
 
 
-def draw_figure(analysis: Analysis, name: str) -> Figure:
+def draw_figure(analysis: Analysis, name: str) -> report.Figure:
     """Draw a figure, by name, that depends only on the analysis."""
     if name == "cells":
         return drawing.draw_cell_means(analysis)
@@ -63,7 +59,7 @@ def draw_figure(analysis: Analysis, name: str) -> Figure:
 def _draw_with_caption(analysis: Analysis, name: str, about: str) -> Picture:
     """Draw a figure with its caption, which marks simulated operators."""
     text = f"Simulated operators. {about}" if analysis.is_simulated else about
-    return Picture(svg(draw_figure(analysis, name), name, text), text)
+    return Picture(report.svg(draw_figure(analysis, name), name, text), text)
 
 
 def _build_law_blocks(analysis: Analysis) -> list[Block]:
@@ -195,7 +191,7 @@ def _build_task_blocks(analysis: Analysis) -> list[Block]:
     return blocks
 
 
-def _draw_measures(analysis: Analysis) -> Figure:
+def _draw_measures(analysis: Analysis) -> report.Figure:
     observed, computer = analysis.observed, analysis.computer
     measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[
         ..., : len(MEASURE_NAMES) + observed.has_ratings

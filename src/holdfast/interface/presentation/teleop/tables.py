@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 from holdfast.core.files.output import write_files
 from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.teleop.analysis.observations import CAUSE_SENTENCES
+from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-    from holdfast.teleop.analysis.result import Analysis
 
 TABLE_DESCRIPTIONS = {
     "trials": "one row for each planned trial (long format)",

@@ -5,28 +5,26 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.files.output import write_files
 from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.formatting import format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.presentation.printing import to_json_types
+from holdfast.interface.presentation.teleop.bank import bank_figure
 from holdfast.model import arms
 from holdfast.teleop.bank.selection import TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
 from holdfast.teleop.protocol.protocol import Protocol, read_protocol
 from holdfast.teleop.records.tables import bank_table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 def to_dict(choice: TaskChoice) -> dict[str, Any]:
     """Return the chosen tasks, numbered from 1, and medians over the tasks for each scenario, as JSON data."""
-    data = {
+    return {
         **choice.arm.entry(),
         "tasks": len(choice.bank),
         "cells_occupied": len(choice.cells.occupied_cells),
@@ -35,8 +33,6 @@ def to_dict(choice: TaskChoice) -> dict[str, Any]:
         "trapped": None if choice.trapped is None else choice.trapped + 1,
         "scenarios": _summarize_scenarios(choice.bank),
     }
-    json_data: dict[str, Any] = to_json_types(data)
-    return json_data
 
 
 def _summarize_scenarios(bank: TaskBank) -> list[dict[str, Any]]:
@@ -103,9 +99,7 @@ def present(choice: TaskChoice) -> Presentation:
     )
 
 
-def _draw_bank(choice: TaskChoice) -> Figure:
-    from holdfast.interface.presentation.teleop.bank import bank_figure
-
+def _draw_bank(choice: TaskChoice) -> report.Figure:
     return bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)
 
 
@@ -117,11 +111,9 @@ def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
         folder: Folder to write; it is created if it does not exist.
         spec: Arm as named in the protocol: a built-in name or a file.
     """
-    from holdfast.interface.report.figures import save_png
-
     files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
     protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")
-    return [*files, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+    return [*files, protocol, report.save_png(choice.figures()["bank"], folder / "bank.png", 150)]
 
 
 def _make_protocol(choice: TaskChoice, spec: str) -> Protocol:

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from holdfast.core.formatting import format_number, format_percent
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.figure import Figure
-
-    from holdfast.interface.report.page import Section
-    from holdfast.interface.report.views import View
-    from holdfast.kinematics.workspace.reachability import ReachabilityMap
+from holdfast.interface.report.page import Section
+from holdfast.interface.report.views import View
+from holdfast.kinematics.workspace.reachability import ReachabilityMap
 
 _MAX_VIEW_POINTS = 4000  # points of the 3-D view
 _PANELS_PER_ROW = 4
@@ -25,8 +21,6 @@ _PANELS_PER_ROW = 4
 
 def present(reachability: ReachabilityMap) -> Presentation:
     """Present the size of the workspace, the reachability index, and the joint whose lock reduces the index most."""
-    from holdfast.interface.presentation.arm.view import choose_views
-
     arm, count, remaining = reachability.arm, reachability.lock_values.shape[1], reachability.harmless_locks
     unit, cells = ("m²", "square cells") if reachability.is_planar else ("m³", "cubic cells")
     lock_text = "at the given values" if count == 1 else f"at {count} values of its range"
@@ -74,10 +68,8 @@ def present(reachability: ReachabilityMap) -> Presentation:
     )
 
 
-def _draw_layer(reachability: ReachabilityMap, view: View) -> Figure:
+def _draw_layer(reachability: ReachabilityMap, view: View) -> report.Figure:
     """Draw the layer of cells, perpendicular to the direction of view, with the largest number of reached cells."""
-    from holdfast.interface.report.places import Plane, place_maps
-
     points, size = view.project(reachability.centers), reachability.cell_size
     depth = reachability.centers @ np.cross(view.right, view.up)
     _, layer_of_cell, layer_sizes = np.unique(np.round(depth, 9), return_inverse=True, return_counts=True)
@@ -89,8 +81,8 @@ def _draw_layer(reachability: ReachabilityMap, view: View) -> Figure:
     empty = -values.shape[1] % min(_PANELS_PER_ROW, values.shape[1])
     values = np.pad(np.where(values > 0, values, np.nan), ((0, 0), (0, empty)), constant_values=np.nan)
     rows = np.split(values, range(_PANELS_PER_ROW, values.shape[1], _PANELS_PER_ROW), axis=1)
-    return place_maps(
-        Plane(points=points, labels=view.names, cells=cells, axes=(axes[0], axes[1])),
+    return report.place_maps(
+        report.Plane(points=points, labels=view.names, cells=cells, axes=(axes[0], axes[1])),
         {" " * row: panels for row, panels in enumerate(rows)},
         ["intact", *reachability.arm.joint_names],
         label="reached fraction of directions",
@@ -102,12 +94,9 @@ def _draw_layer(reachability: ReachabilityMap, view: View) -> Figure:
 
 def _build_sections(reachability: ReachabilityMap) -> Sequence[Section]:
     """Build the interactive view of one half of the cells."""
-    from holdfast.interface.presentation.arm.view import build_view_section
-    from holdfast.interface.report.scenes import Scale
-
     half = np.flatnonzero(reachability.centers[:, 1] >= np.median(reachability.centers[:, 1]))
     half = half[:: -(-len(half) // _MAX_VIEW_POINTS)]
-    colors = 255 * Scale(0.0, 1.0).colors(reachability.index[half])[:, :3]
+    colors = 255 * report.Scale(0.0, 1.0).colors(reachability.index[half])[:, :3]
     caption = "Cells that the intact arm reaches, cut open: bright cells are reached in more tool directions."
     points = reachability.centers[half]
     return [build_view_section("The reachable cells", reachability.arm, None, caption, points=points, colors=colors)]

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.formatting import format_number, format_percent
+from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import choose_views
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from holdfast.kinematics.workspace.tolerance import TolerantWorkspace
+from holdfast.kinematics.workspace.tolerance import TolerantWorkspace
 
 
 def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
@@ -120,13 +118,10 @@ def _compose_answer(region: TolerantWorkspace) -> str:
     return f"{answer}."
 
 
-def _draw_figure(region: TolerantWorkspace) -> Figure:
+def _draw_figure(region: TolerantWorkspace) -> report.Figure:
     """Draw the region inside the workspace of the healthy arm, from one or two directions, and the sizes."""
-    from holdfast.interface.presentation.arm.view import choose_views
-    from holdfast.interface.report.manifolds import RegionMap, region_figure
-
     maps = [
-        RegionMap(
+        report.manifolds.RegionMap(
             view.project(region.points),
             view,
             region.healthy,
@@ -155,4 +150,4 @@ def _draw_figure(region: TolerantWorkspace) -> Figure:
     sizes = f"{region.size:.4g} {region.unit} of {region.healthy_size:.4g} {region.unit}"
     caption = f"{region.arm.name}, task {region.task.name}: {sizes} ({method}); {limits_text}"
     unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
-    return region_figure(maps, bars, unit, error, caption)
+    return report.manifolds.region_figure(maps, bars, unit, error, caption)

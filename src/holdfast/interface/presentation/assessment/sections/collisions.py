@@ -7,9 +7,9 @@ from collections import Counter
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_interval, format_percent, format_share
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.collision.shape import describe_cell
-from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Callout, Picture, Table, Text
 from holdfast.model.collision.clearance import Clearance
 from holdfast.studies.assessment.rows import Collisions
@@ -91,9 +91,9 @@ def _build_contact_blocks(facts: AssessmentFacts, collisions: Collisions) -> lis
         return []
     names.sort(key=lambda name: -collisions.with_each[name])
     axis_label = f"{facts.noun}s at whose configuration the arm touches the object, at most"
-    figure = figures.bar_figure(names, [collisions.with_each[name] for name in names], axis_label, total=collisions.reached)
+    figure = report.bar_figure(names, [collisions.with_each[name] for name in names], axis_label, total=collisions.reached)
     explanation = "Objects that the arm touches at the configurations found; a configuration counts for each object it touches."
-    blocks: list[Block] = [Picture(figures.svg(figure, "in-the-way", "Objects that the arm touches"), explanation)]
+    blocks: list[Block] = [Picture(report.svg(figure, "in-the-way", "Objects that the arm touches"), explanation)]
     if collisions.blocked:
         blocking_names = sorted(names, key=lambda name: -collisions.blocked_by[name])
         table_rows = [

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from holdfast.core.formatting import format_as_given, format_count, format_interval, format_percent
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment import thresholds
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Picture, Text
 
 
@@ -20,7 +20,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         f"Density (PDF), {d.reached:,} {'reached ' if d.unreached else ''}{facts.noun}s",
         f"Cumulative (CDF), {d.samples:,} {facts.noun}s",
     )
-    figure = figures.distribution_figure(
+    figure = report.distribution_figure(
         facts.histogram,
         facts.curves,
         facts.marks,
@@ -41,5 +41,5 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     population = "the reached poses" if d.unreached else f"all {facts.noun}s"
     total = f"the {format_percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
     text += f" The density is a histogram of {len(facts.histogram.heights)} bins over {population}; its area is {total}."
-    picture = Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)
+    picture = Picture(report.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)
     return [picture, *thresholds.blocks(facts, figure)]

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from holdfast.core.formatting import format_count, format_half_width
 from holdfast.core.probability.distribution import Distribution
-from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.report import figures
-from holdfast.interface.report.figures import Curve
 from holdfast.interface.report.page import Block, Picture, Text
 
 _MAX_DOTS = 20_000
@@ -31,7 +28,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         figure = draw_gain(facts, optimised)
         blocks.append(
             Picture(
-                figures.svg(figure, "gain", "Distribution of the index before and after choosing the best configurations"),
+                report.svg(figure, "gain", "Distribution of the index before and after choosing the best configurations"),
                 f"{facts.distribution.samples:,} poses. Right: the {facts.distribution.reached:,} reached poses, "
                 "sorted by the index before. The gain of a pose is the height of its dot above the line."
                 + _describe_blocked_poses(facts),
@@ -56,22 +53,12 @@ def _describe_blocked_poses(facts: AssessmentFacts) -> str:
     return f" {format_count(blocked, 'pose')} {'has' if blocked == 1 else 'have'} {reason}." if blocked else ""
 
 
-def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
+def draw_gain(facts: AssessmentFacts, best: Distribution) -> report.Figure:
     """Draw the cumulative distributions before and after (left), and both values of each pose (right; Figs. 6 and 7)."""
     curves = build_gain_curves(facts, best)
-    axis_values = curves[0].x
-    with figures.style():
-        figure = Figure(figsize=(figures.WIDTH_IN, 3.9))
+    with report.styled_figure(report.WIDTH_IN, 3.9) as figure:
         cdf_axes, pose_axes = figure.subplots(1, 2)
-        visible_marks = [mark for mark in facts.marks if mark.x <= axis_values[-1]]
-        figures.draw_cdf(
-            cdf_axes,
-            curves,
-            visible_marks,
-            xlabel=facts.axis_label,
-            ylabel="fraction with a smaller value, F",
-            log=facts.is_logarithmic,
-        )
+        _draw_cdf(cdf_axes, facts, curves)
         cdf_axes.set_title(f"Cumulative (CDF), {facts.distribution.samples:,} poses")
         poses = facts.poses
         if poses is None:
@@ -82,17 +69,23 @@ def draw_gain(facts: AssessmentFacts, best: Distribution) -> Figure:
             order = np.argsort(before)
             chosen = order if len(order) <= _MAX_DOTS else order[:: -(-len(order) // _MAX_DOTS)]
             ranks = np.searchsorted(np.sort(before), before[chosen]) + 1
-            pose_axes.plot(ranks, after[chosen], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
-            pose_axes.plot(ranks, before[chosen], color=figures.ORANGE, linewidth=1.6)
+            pose_axes.plot(ranks, after[chosen], ".", color=report.BLUE, markersize=2.2, rasterized=True)
+            pose_axes.plot(ranks, before[chosen], color=report.ORANGE, linewidth=1.6)
             pose_axes.set(xlabel="reached poses, sorted by the index before", ylabel=facts.axis_label, ylim=(0, None))
             if facts.is_logarithmic:
                 pose_axes.set(yscale="log", ylim=(None, None))
             pose_axes.set_title("Each pose before (line) and after (dots)")
-        figures.legend_below(figure, cdf_axes)
-        return figures.settle_layout(figure)
+        report.legend_below(figure, cdf_axes)
+    return figure
 
 
-def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]:
+def _draw_cdf(axes: report.Axes, facts: AssessmentFacts, curves: list[report.Curve]) -> None:
+    """Draw cumulative distributions with the marks that are not beyond the end of their axis."""
+    marks, label = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]], "fraction with a smaller value, F"
+    report.draw_cdf(axes, curves, marks, xlabel=facts.axis_label, ylabel=label, log=facts.is_logarithmic)
+
+
+def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[report.Curve]:
     """Return the distributions after and before optimisation over one axis, each with its 95 % band."""
     extremes = [
         value
@@ -104,7 +97,7 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
     axis_values = (np.geomspace if facts.is_logarithmic else np.linspace)(lower, max(extremes) * 1.02, 400)
     samples = ((best, "after: best configurations", False), (facts.distribution, "before: found by inverse kinematics", True))
     return [
-        Curve(
+        report.Curve(
             axis_values,
             distribution.cdf(axis_values),
             f"{label}, 95 % band {format_half_width(distribution.band())}",
@@ -115,27 +108,17 @@ def build_gain_curves(facts: AssessmentFacts, best: Distribution) -> list[Curve]
     ]
 
 
-def draw_cdf_figure(answer: ThresholdAnswer) -> Figure:
+def draw_cdf_figure(facts: AssessmentFacts) -> report.Figure:
     """Draw the cumulative distribution with its 95 % band; before and after optimisation if the run was optimised."""
-    facts = AssessmentFacts.extend_answer(answer)
     optimised = facts.assessment.optimised
     curves = facts.curves if optimised is None or not optimised.reached else build_gain_curves(facts, optimised)
-    with figures.style():
-        figure = Figure(figsize=(7.2, 4.8))
+    with report.styled_figure(7.2, 4.8) as figure:
         axes = figure.subplots()
-        visible_marks = [mark for mark in facts.marks if mark.x <= curves[0].x[-1]]
-        figures.draw_cdf(
-            axes,
-            curves,
-            visible_marks,
-            xlabel=facts.axis_label,
-            ylabel="fraction with a smaller value, F",
-            log=facts.is_logarithmic,
-        )
+        _draw_cdf(axes, facts, curves)
         unreached_text = f", {facts.distribution.unreached:,} of them not reached" if facts.distribution.unreached else ""
         axes.set_title(
-            f"{figures.format_label(facts.assessment.arm.name, 30)}: {facts.distribution.samples:,} "
+            f"{report.format_label(facts.assessment.arm.name, 30)}: {facts.distribution.samples:,} "
             f"{facts.noun}s{unreached_text}"
         )
-        figures.legend_below(figure, axes, 1)
-        return figures.settle_layout(figure)
+        report.legend_below(figure, axes, 1)
+    return figure

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from holdfast.core.formatting import format_count, format_decimals, format_number
 from holdfast.core.probability.distribution import Distribution
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.answer import EvaluatedPoses
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.commands import build_pose_command
-from holdfast.interface.report import figures, maps
 from holdfast.interface.report.page import Block, Code, Picture, Table, Text
 from holdfast.interface.report.views import choose_side_and_top_views
 from holdfast.kinematics.regions.region import Region
@@ -50,13 +50,13 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         for name, _, sampled in facts.samples
         if sampled is not None and sampled.reached.any()
     }
-    figure = maps.map_figure(
+    figure = report.map_figure(
         poses.position,
         index_values,
         views,
         log=facts.is_logarithmic,
         smaller_is_better=not facts.larger_is_better,
-        label=figures.format_label(f"{average.lower()} {facts.index.name}"),
+        label=report.format_label(f"{average.lower()} {facts.index.name}"),
         weights=poses.weight,
     )
     text = (
@@ -70,7 +70,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         text += " Positions are tool positions."
     if facts.distribution.has_weights:
         text += f" Within a cell the {facts.noun}s are weighted; cells without weight are grey."
-    return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
+    return [*blocks, Picture(report.svg(figure, "map", "Average index over the region"), text)]
 
 
 def _find_worst_poses(facts: AssessmentFacts, poses: EvaluatedPoses) -> NDArray[np.intp]:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.core.formatting import format_interval, format_percent
 from holdfast.core.typing import FloatArray
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.tables import describe_lock, tabulate_survival
 from holdfast.interface.presentation.renderers import build_table_block
-from holdfast.interface.report import figures, maps
 from holdfast.interface.report.page import Block, Picture, Text
 from holdfast.interface.report.views import View, choose_side_and_top_views
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
@@ -35,7 +34,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     }
     bar_labels = [f"{joint + 1} {names[joint]}{position}" for joint, position in positions.items()]
     axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached after a lock of the joint"
-    figure = figures.bar_figure(
+    figure = report.bar_figure(
         bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
     )
     is_specified = [angle is not None for angle in locks.values()]
@@ -52,7 +51,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             f"fraction of the poses reached after it is {format_interval(fractions[worst])}."
         ),
         Picture(
-            figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
+            report.svg(figure, "survival", "Poses still reached once each joint has locked"),
             f"Each joint is locked {place}. A pose counts as reached if inverse kinematics with the locked joint finds a "
             f"configuration from one of {LOCK_RESTARTS} starts{_describe_clearance_method(facts)}, so the fractions are lower "
             f"bounds.",
@@ -106,7 +105,7 @@ def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list
     )
     if facts.distribution.has_weights:
         text += " The fractions are weighted; these numbers are not."
-    return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
+    return [Picture(report.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
 def draw_before_and_after(
@@ -116,7 +115,7 @@ def draw_before_and_after(
     view: View,
     locked_title: str,
     weights: FloatArray | None = None,
-) -> Figure:
+) -> report.Figure:
     """Map the fraction of positions (N, 3), m, that are reached (N,) before and after a failure, weighted by (N,) if given."""
-    panels = [("Healthy", healthy), (figures.format_label(locked_title, 37), remaining)]
-    return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)
+    panels = [("Healthy", healthy), (report.format_label(locked_title, 37), remaining)]
+    return report.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from holdfast.core.formatting import format_count
+from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import scene
 from holdfast.interface.presentation.assessment import interactive_poses
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
-from holdfast.interface.report import figures, scenes
 from holdfast.interface.report.page import Block, Picture
 
 
@@ -26,8 +26,8 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         legend.append(("cross", "no configuration found"))
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
-    figure = scenes.view_figure(scene, facts.views, facts.color_scale, label=facts.axis_label, legend=legend)
-    image = figures.svg(figure, "views", f"The arm and the {facts.noun}s of the region, by index")
+    figure = report.view_figure(scene, facts.views, facts.color_scale, label=facts.axis_label, legend=legend)
+    image = report.svg(figure, "views", f"The arm and the {facts.noun}s of the region, by index")
     text = f"The arm is drawn {facts.drawn_configuration[1]}."
     if not drawn_count and distribution.samples:
         text += f" The {facts.noun}s of this run were not stored, so none are shown."

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from holdfast.interface import report
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.presentation.assessment.tables import tabulate_failures
 from holdfast.interface.presentation.renderers import build_table_block
-from holdfast.interface.report import figures
 from holdfast.interface.report.page import Block, Picture, Text
 
 _MAX_BARS = 20
@@ -27,7 +27,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         chosen = np.argsort(-counts, kind="stable")[:_MAX_BARS]
         remark = f" The {len(chosen)} most frequent of {len(labels)} failures are shown."
     if total:
-        figure = figures.bar_figure(
+        figure = report.bar_figure(
             [labels[failure] for failure in chosen],
             counts[chosen].tolist(),
             f"{'weight of ' if weighted else ''}{facts.noun}s at which this failure is the worst",
@@ -38,7 +38,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             f"Over {population} {facts.reached_noun} that are not singular. If several failures are equally bad, the first "
             f"one counts."
         )
-        blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + remark))
+        blocks.append(Picture(report.svg(figure, "worst", "How often each failure is the worst"), text + remark))
     else:
         blocks.append(Text(f"Every {facts.noun} reached is singular, so all failures are equally bad."))
     table = tabulate_failures(facts)
