@@ -255,7 +255,7 @@ def contact_table(chosen: argparse.Namespace) -> str:
         ours, theirs = harness.alternate(lambda size=size: run(size), lambda: peer(q[few], rates[few]), chosen.rounds)
         ratios = [(b / len(q[few])) / (a / len(q)) for a, b in zip(ours, theirs, strict=True)]
         speeds = (harness.number(len(x) / float(np.median(y))) for x, y in ((q, ours), (q[few], theirs)))
-        name = f"**holdfast {size * 1e3:g} ms, {THREADS} threads, with `error`**"
+        name = f"**holdfast {size * 1e3:g} ms, {THREADS} threads**"
         lines.append(f"| {name} | {harness.Spread.of(ours)} | {' | '.join(speeds)} | {harness.Spread.of(ratios)} |")
     fall, seen = run(), peer(q[few], rates[few])
     touched, contact = fall.contacts.pair[few] >= 0, fall.contacts

@@ -31,6 +31,7 @@ WORKLOADS = (
     "fault_monitor",
     "upper_bounds",
     "falls",
+    "arm_page",
     "spectral",
     "memory",
 )

@@ -110,17 +110,13 @@ WORK = {
         "for _ in range(10_000): plant.step_one(q, v, mask)",
         10_000,
     ),
-    "W11 numbers of the studio's page, Panda (no browser)": (
+    "W11 numbers that the studio's server computes, Panda": (
         "from holdfast.model.arm.task import as_task\n"
-        "from holdfast.interface.studio.scene import bars, machine\n"
-        "bars_html, losses_html, CompiledArm = bars.bars_html, bars.losses_html, machine.CompiledArm\n"
-        "arm = hf.arms.load('panda'); m = CompiledArm(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
-        "frames = getattr(arm, 'frames', None) or m.frames\n"
-        "def page(x):\n"
-        "    frames(x); reading = m.evaluate_live_reading(x, (), 'relative-manipulability', 'torque')\n"
-        "    bars_html(reading.bars, '', arm.joint_names, up); bars_html(reading.weights, '', arm.joint_names, up)\n"
-        "    losses_html(arm, m.task, reading, ())",
-        "for x in q: page(x)",
+        "from holdfast.interface.studio.machine import CompiledArm\n"
+        "arm = hf.arms.load('panda'); m = CompiledArm(arm, as_task(arm, 'pose')); q = draw(arm, 300)\n"
+        "def read(x):\n"
+        "    m.evaluate_index_bars(x, 'relative-manipulability'); m.evaluate_susceptibility_bars(x, 'torque')",
+        "for x in q: read(x)",
         300,
     ),
     "W12 study of 4 chunks, PA10, 1 thread": (

@@ -51,7 +51,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"holdfast\.(control\.falls\.simulator\.FallSimulator|model\.arm\.friction\.JointFriction)"),
     (r"py:class", r"holdfast\.core\.(probability\.intervals\.WeightSums|sweeps\.journal\.JournalEntry)"),
     (r"py:class", r"holdfast\.interface\.(presentation\.arm\.body\.MeshPart|report\.viewer\.ViewerScene)"),
-    (r"py:class", r"holdfast\.interface\.studio\.scene\.machine\.CompiledArm"),
+    (r"py:class", r"holdfast\.interface\.studio\.(machine\.CompiledArm|answers\.ServedArm)"),
     (
         r"py:class",
         r"holdfast\.kinematics\.index_bounds\.(manipulability_bounds\.Failure|least_singular_values\.SingularValue)Problem",

@@ -5,19 +5,24 @@ import { defineConfig, type UserConfig } from "vite";
 // built by a call with its own mode, so that no chunk is shared. All names are fixed: the server knows them.
 const pages: Record<string, string> = { station: "index.html", experimenter: "experimenter.html" };
 
-// `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold, and `--mode arm_page` the page of an
-// arm: one script each, which runs where it is put.
-const script = (folder: string): UserConfig => ({
+// `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold, `--mode arm_page` the page of an arm,
+// and `--mode studio` the page of the studio: one script each, which runs where it is put.
+const scripts: Record<string, string> = {
+  viewer: "src/viewer/main.ts",
+  arm_page: "src/arm_page/main.ts",
+  studio: "src/arm_page/studio.ts",
+};
+const script = (name: string): UserConfig => ({
   publicDir: false,
   build: {
     outDir: resolve(import.meta.dirname, "../src/holdfast/interface/report/templates"),
     emptyOutDir: false,
     target: "es2022",
-    lib: { entry: `src/${folder}/main.ts`, formats: ["iife"], name: "holdfastView", fileName: () => `${folder}.js` },
+    lib: { entry: scripts[name], formats: ["iife"], name: "holdfastView", fileName: () => `${name}.js` },
   },
 });
 
-export default defineConfig(({ mode }) => mode === "viewer" || mode === "arm_page" ? script(mode) : ({
+export default defineConfig(({ mode }) => mode in scripts ? script(mode) : ({
   base: "./",
   worker: { rolldownOptions: { output: { entryFileNames: "worker.js" } } },
   build: {

@@ -22,7 +22,7 @@ def test_a_loop_is_there_and_small(name):
     with Image.open(file) as picture:
         assert picture.size == SIZE
         assert picture.n_frames > 20
-    assert file.stat().st_size < (1_000_000 if name == "studio" else 620_000)
+    assert file.stat().st_size < (1_000_000 if name == "page" else 620_000)
 
 
 def test_every_file_is_a_loop_that_a_script_writes():

@@ -44,7 +44,6 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 from holdfast import registry
-from holdfast.core.files.html import Html
 
 WIDTH = 92
 TERMINAL: dict[str, Any] = {"drop_whitespace": True, "replace_whitespace": False, "break_on_hyphens": False, "tabsize": 8}
@@ -136,7 +135,7 @@ class Run(_Live):
                     value = eval(compile(ast.Expression(last.value), self.env.docname, "eval"), self.names)
                     if hasattr(value, "savefig"):
                         drawn = self.drawn(value)
-                    elif isinstance(value, Html):
+                    elif type(value).__name__ == "Html":
                         drawn = nodes.raw("", value._repr_html_(), format="html")
                     elif value is not None:
                         print(repr(value))

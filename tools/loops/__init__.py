@@ -2,7 +2,7 @@
 
 # Each is a module of this name; the value is the seed of what it draws at random, if anything.
 LOOPS = {
-    "studio": None,
+    "page": None,
     "power-loss": None,
     "two-laws": None,
     "self-motion": 0,

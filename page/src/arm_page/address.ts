@@ -3,12 +3,11 @@
 import type { ArmPageData } from "./data";
 
 export type Condition = "healthy" | "locked" | "free";
-export const STEPS = ["healthy", "lock", "prepare", "undetected", "power"] as const;
-export type StepName = (typeof STEPS)[number];
 
 export interface PageState {
   arm: string;
-  step: StepName;
+  /** Name of the step, a key of `STEP_CLASSES` or of the steps of the studio. */
+  step: string;
   /** Joint values, rad or m. */
   q: ArrayLike<number>;
   conditions: Condition[];
@@ -31,12 +30,11 @@ export function writeAddress(state: PageState): string {
 }
 
 /** Read a state; fields that are missing or do not fit the arm keep their defaults. */
-export function readAddress(fragment: string, data: ArmPageData, defaults: PageState): PageState {
+export function readAddress(fragment: string, data: ArmPageData, defaults: PageState, steps: string[]): PageState {
   const fields = new URLSearchParams(fragment.replace(/^#/, ""));
   const state = { ...defaults, conditions: [...defaults.conditions] };
   if (fields.get("arm") !== null && fields.get("arm") !== data.name) return state;
-  const step = STEPS.find((name) => name === fields.get("step"));
-  if (step) state.step = step;
+  state.step = steps.find((name) => name === fields.get("step")) ?? state.step;
   const q = (fields.get("q") ?? "").split(",").map(Number);
   if (fields.get("q") && q.length === state.q.length && q.every(Number.isFinite)) state.q = q;
   for (const condition of ["locked", "free"] as const) {

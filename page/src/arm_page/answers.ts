@@ -46,6 +46,7 @@ export interface JointBars {
   title: string;
   better: "larger" | "smaller";
   unit: string[];
+  /** Null where the value is infinite, or where there is none. */
   values: (number | null)[];
   worst: number;
   status: string;
@@ -72,10 +73,14 @@ export interface Cloud {
 
 export interface Watch {
   motion: Motion;
-  /** Times of the residuals, s, and the residual of each joint divided by its threshold (T x n). */
+  /** Times of the residuals, s. */
   time: number[];
-  residuals: number[][];
-  onset: number;
+  /** Residual of each joint (T x n), or of the tool (T x 1), divided by its threshold. */
+  signals: { label: string; values: (number | null)[][] }[];
+  /** Times of the fault and of the alarm, s, and the joint, from 0, that the monitor has isolated from a time on, s. */
+  onset: number | null;
+  alarm: number | null;
+  isolated: { joint: number; from: number } | null;
   /** Sentences of the monitor, each from a time on, s. */
   sentences: { from: number; text: string }[];
 }
@@ -87,6 +92,10 @@ export interface Answers {
     susceptibility: JointBars | string;
     powerLoss: string;
     clearance: string;
+    /** Shortest distance between the arm and an object; null without a cell. */
+    nearest: { arm: Vector; object: Vector; name: string; blocked: boolean } | null;
+    /** A target that the arm reaches: position, m, and quaternion x, y, z, w. */
+    target: number[];
     command: string;
   };
   "best-worst": { q: [number[], number[]]; values: [number, number, number] };
@@ -97,22 +106,32 @@ export interface Answers {
   /** A file that the visitor opens: a motion to play, or the address of the page of another arm. */
   open: { motion: Motion } | { address: string };
   drawing: { svg: string };
-  "cell-file": { name: string; text: string };
+  "cell-file": { name: string; text: string; command: string };
 }
 
 export type Question = keyof Answers;
 
-/** Ask the server; `progress` hears of steps that are done. A newer question aborts an older one through `signal`. */
+export interface AskOptions {
+  signal?: AbortSignal;
+  /** Called with the number of steps that are done, and of all. */
+  progress?: (done: number, total: number) => void;
+  /** A file that the visitor opens, with its content in base64. */
+  file?: { name: string; content: string };
+  /** Further configurations of a drawing. */
+  ghosts?: number[][];
+}
+
+/** Ask the server; an abort of `signal` stops the computation. */
 export async function ask<Q extends Question>(
   question: Q,
   token: string,
   state: StudioState,
-  options: { signal?: AbortSignal; progress?: (done: number, total: number) => void; file?: { name: string; content: string } } = {},
+  options: AskOptions = {},
 ): Promise<Answers[Q]> {
   const reply = await fetch(`answer/${question}`, {
     method: "POST",
     headers: { "Content-Type": "application/json", "X-Token": token },
-    body: JSON.stringify({ state, file: options.file ?? null }),
+    body: JSON.stringify({ state, file: options.file ?? null, ghosts: options.ghosts ?? [] }),
     signal: options.signal ?? null,
   });
   if (!reply.body) throw new Error("The server has stopped.");

@@ -30,14 +30,17 @@ export class ArmModel {
   }
 
   /** Return 1 for each joint that can move, and 0 for each locked one. */
-  freeJoints = (locked: readonly number[]): Float64Array =>
-    Float64Array.from(this.joints, (_, k) => (locked.includes(k) ? 0 : 1));
+  freeJoints(locked: readonly number[]): Float64Array {
+    const free = new Float64Array(this.jointCount).fill(1);
+    for (const joint of locked) free[joint] = 0;
+    return free;
+  }
 
   /** Poses in the world of the base, the joints, and the tool, each of 12 numbers. */
   frames = (q: Values): Rows => splitRows(evaluate(this.kernels.frames, [q], 12 * (this.jointCount + 2)), this.jointCount + 2);
 
   /** Pose of the tool in the world, 12 numbers. */
-  toolPose = (q: Values): Float64Array => this.frames(q)[this.jointCount + 1];
+  toolPose = (q: Values): Float64Array => evaluate(this.kernels.frames, [q], 12 * (this.jointCount + 2)).subarray(-12);
 
   /** Position of the tool in the world, m. */
   toolPosition(q: Values): Vector {
@@ -69,11 +72,12 @@ export class ArmModel {
   }
 }
 
+const inputs = new Float64Array(256); // of every kernel, one after the other
+
 function evaluate(kernel: PrintedKernel, parts: Values[], outputCount: number): Float64Array {
-  const inputs = new Float64Array(parts.reduce((count, part) => count + part.length, 0));
   let offset = 0;
   for (const part of parts) {
-    inputs.set(part, offset);
+    for (let k = 0; k < part.length; k++) inputs[offset + k] = part[k];
     offset += part.length;
   }
   const outputs = new Float64Array(outputCount);

@@ -1,24 +1,25 @@
 /** The page of one arm: its state, and how the parts of the page follow it. */
 
-import { sum } from "../viewer/algebra";
-import type { Pose, Vector } from "../viewer/scene";
-import { Overlay } from "../viewer/overlay";
+import { h } from "../dom";
+import { place, sum } from "../viewer/algebra";
+import type { Part, Pose, Vector } from "../viewer/scene";
+import { Overlay, type OverlayContent } from "../viewer/overlay";
+import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
 import { View } from "../viewer/view";
-import { readAddress, STEPS, writeAddress, type Condition, type PageState, type StepName } from "./address";
+import { readAddress, writeAddress, type Condition, type PageState } from "./address";
 import { ArmModel } from "./arm_model";
-import { Bars } from "./bars";
-import { writeCommands } from "./commands";
+import { Bars, nextCondition, type BarValues } from "./bars";
+import { reproduce, writeCommands, type Code } from "./commands";
 import type { ArmPageData, PrintedKernels } from "./data";
 import { relativeManipulability, worstJoint } from "./failures";
-import { fillText, joinNames } from "./phrases";
-import { STEP_CLASSES, type Step } from "./steps";
+import { fillText, formatPercent, joinNames } from "./phrases";
+import { PoseHandle, type HandleActions } from "./pose_handle";
+import type { Step, StepClasses } from "./steps";
 import { reachTarget, searchTarget } from "./tool_drag";
-import { ToolHandle } from "./tool_handle";
 
 const REST_MS = 400; // without change, until the page reports a state and computes what takes long
-const KEY_STEP = 0.005; // of the stretched arm, for the smallest step by key
 
-export class ArmPage {
+export class ArmPage<Data extends ArmPageData = ArmPageData> {
   readonly arm: ArmModel;
   readonly controls: HTMLElement;
   readonly state: PageState;
@@ -26,52 +27,75 @@ export class ArmPage {
   fractions: Float64Array = new Float64Array();
   worst = 0;
   touched = false;
-  private readonly view: View;
-  private readonly overlay: Overlay;
-  private readonly bars: Bars;
-  private readonly handle: ToolHandle;
-  private readonly steps: Record<StepName, Step>;
+  dragging = false;
+  readonly view: View;
+  protected readonly overlay: Overlay;
+  protected readonly bars: Bars;
+  protected readonly handles: PoseHandle[] = [];
+  protected readonly handle: PoseHandle;
+  private readonly sliders: JointSliders;
+  private readonly steps: Record<string, Step>;
   /** Pose that the tool should have, while it does not have it. */
   private target: Pose | null = null;
-  private dragStart: Pose = [];
   private restTimer = 0;
 
   constructor(
-    private readonly section: HTMLElement,
-    readonly data: ArmPageData,
+    protected readonly section: HTMLElement,
+    readonly data: Data,
     kernels: PrintedKernels,
     box: HTMLElement,
     canvas: HTMLCanvasElement,
+    private readonly stepClasses: StepClasses,
   ) {
     this.arm = new ArmModel(kernels, data.scene.joints, data.taskRows);
     this.view = new View(box, canvas, data.scene, { frames: (q) => this.arm.frames(q).map((pose) => [...pose]), plain: true });
     this.overlay = new Overlay(this.view);
     this.controls = this.find(".step-controls") ?? document.createElement("div");
     const conditions = data.scene.locked.map((time): Condition => (time === null ? "healthy" : "locked"));
-    const step = conditions.includes("locked") ? "lock" : "healthy";
-    const defaults: PageState = { arm: data.name, step, q: data.scene.arms[0].q[0], conditions, brakeDelay: 150 };
-    this.state = readAddress(location.hash, data, defaults);
+    const defaults: PageState = { arm: data.name, step: "healthy", q: data.scene.arms[0].q[0], conditions, brakeDelay: 150 };
+    this.state = this.readState(defaults, Object.keys(stepClasses));
     this.bars = new Bars(this.find(".bars") as HTMLElement, data.texts, (joint, condition) =>
       this.selectCondition(joint, condition),
     );
-    this.handle = new ToolHandle(this.addHandle(), {
-      begin: () => this.beginDrag(),
-      drag: (right, down) => this.drag(right, down),
-      step: (right, up, gravity) => this.moveByKeys(right, up, gravity),
+    this.handle = this.addHandle("tool-handle", "handle", {
+      begin: () => (this.touched = this.dragging = true),
+      move: (pose) => this.moveTool(pose),
       end: () => this.endDrag(),
     });
-    this.steps = Object.fromEntries(STEPS.map((name) => [name, new STEP_CLASSES[name](this)])) as Record<StepName, Step>;
+    this.sliders = new JointSliders(data.scene, Array.from(this.state.q), (q) => this.setConfiguration(q));
+    this.steps = Object.fromEntries(Object.entries(stepClasses).map(([name, kind]) => [name, new kind(this)]));
+  }
+
+  /** Show the first step. */
+  start(): void {
+    const { data, view } = this;
     this.addStepButtons();
+    this.addPictureButtons();
+    this.find(".arm-commands")?.before(this.sliders.element);
     (this.find(".view3d-hint") as HTMLElement).textContent = data.texts.hint;
-    this.view.onDraw = () => this.afterPicture();
+    view.onDraw = () => this.afterPicture();
+    view.onPick = (part) => this.selectPart(part);
     this.measure();
     this.openStep(this.state.step);
+  }
+
+  /** The state in the address, or the one that the page was written for. */
+  protected readState(defaults: PageState, steps: string[]): PageState {
+    const step = defaults.conditions.every((condition) => condition === "healthy") ? "healthy" : "lock";
+    return readAddress(location.hash, this.data, { ...defaults, step }, steps);
   }
 
   // ---- state -------------------------------------------------------------------------------------------------------
 
   get failed(): number[] {
     return this.state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
+  }
+
+  /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
+  get controlTarget(): Vector {
+    const { story } = this.data;
+    const tool = this.arm.toolPosition(this.state.q);
+    return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
   }
 
   label(joint: number): string {
@@ -103,6 +127,11 @@ export class ArmPage {
     this.update();
   }
 
+  /** Change the condition of the joint of a part of the picture. */
+  protected selectPart({ joint }: Part): void {
+    if (joint !== undefined) this.selectCondition(joint, nextCondition(this.state.conditions[joint]));
+  }
+
   private selectCondition(joint: number, condition: Condition): void {
     this.touched = true;
     this.setCondition(joint, condition);
@@ -110,7 +139,7 @@ export class ArmPage {
     else this.update();
   }
 
-  private openStep(name: StepName): void {
+  protected openStep(name: string): void {
     this.step.leave();
     this.step.ghosts = [];
     this.state.step = name;
@@ -124,33 +153,13 @@ export class ArmPage {
     this.update();
   }
 
-  private get step(): Step {
+  protected get step(): Step {
     return this.steps[this.state.step];
   }
 
   // ---- dragging ----------------------------------------------------------------------------------------------------
 
-  private beginDrag(): void {
-    this.touched = true;
-    this.dragStart = [...this.arm.toolPose(this.state.q)];
-  }
-
-  private drag(right: number, down: number): void {
-    const start = positionOf(this.dragStart);
-    this.moveTool(sum(this.view.displace(start, right, down), start, -1), this.dragStart);
-  }
-
-  private moveByKeys(right: number, up: number, gravity: number): void {
-    this.touched = true;
-    const axes = this.view.camera.axes();
-    const length = KEY_STEP * this.data.scene.size;
-    const flat = sum(sum([0, 0, 0], axes.right, right * length), axes.top, up * length);
-    this.moveTool(sum(flat, this.data.scene.up, -gravity * length), this.target ?? [...this.arm.toolPose(this.state.q)]);
-  }
-
-  private moveTool(displacement: Vector, from: Pose): void {
-    const target = [...from];
-    displacement.forEach((value, k) => (target[4 * k + 3] += value));
+  private moveTool(target: Pose): void {
     const found = reachTarget(this.arm, this.state.q, target, this.arm.freeJoints(this.failed));
     this.state.q = [...found.configuration];
     this.target = found.reached ? null : target;
@@ -159,6 +168,7 @@ export class ArmPage {
 
   /** Search from random starts for a target that was not reached from the present configuration. */
   private endDrag(): void {
+    this.dragging = false;
     if (this.target !== null) {
       const found = searchTarget(this.arm, this.state.q, this.target, this.arm.freeJoints(this.failed));
       if (found.reached) this.setConfiguration([...found.configuration]);
@@ -175,19 +185,26 @@ export class ArmPage {
   }
 
   /** Show the state in every part of the page. */
-  private update(): void {
+  protected update(): void {
     this.measure();
     this.section.dataset.touched = String(this.touched);
-    this.bars.update([...this.fractions], this.worst, this.state.conditions);
+    const { conditions, q } = this.state;
+    this.bars.update(this.barValues(), conditions);
+    this.sliders.update(q, conditions.map((condition) => condition === "healthy"));
     this.step.update();
     this.draw();
+  }
+
+  protected barValues(): BarValues {
+    const fractions = [...this.fractions];
+    return { fractions, texts: fractions.map(formatPercent), worst: this.worst, meaning: this.data.texts.bar };
   }
 
   /** Draw the picture and write the sentences. */
   draw(): void {
     this.view.setConditions(this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)));
-    this.view.setGhosts(this.step.ghosts.map((q) => [...Array.from(q)]));
-    this.view.pose([...Array.from(this.step.configuration)]);
+    this.view.setGhosts(this.step.ghosts.map((q) => Array.from(q)), this.step.ghostColors);
+    this.view.pose(Array.from(this.step.configuration));
     const [headline, detail] = this.target === null ? this.step.sentences() : this.unreachedSentences();
     (this.find(".arm-headline") as HTMLElement).textContent = headline;
     (this.find(".arm-detail") as HTMLElement).textContent = detail;
@@ -197,45 +214,74 @@ export class ArmPage {
 
   private unreachedSentences(): [string, string] {
     const { texts, scene } = this.data;
-    const distance = Math.hypot(...sum(positionOf(this.target as Pose), positionOf(scene.base), -1));
+    const distance = Math.hypot(...sum(place(this.target as Pose), place(scene.base), -1));
     if (distance > scene.size) return [texts.too_far, texts.unreached_detail];
     const headline = this.failed.length ? fillText(texts.unreached, { joints: this.failedNames() }) : texts.unreached_healthy;
     return [headline, texts.unreached_detail];
   }
 
   /** Tell a screen reader, the address, and the commands once nothing has changed for a while. */
-  private reportRest(headline: string): void {
-    (this.find("[aria-live]") as HTMLElement).textContent = headline;
+  protected reportRest(headline: string): void {
+    const live = this.find("[aria-live]") as HTMLElement;
+    if (live.textContent !== headline) live.textContent = headline;
     try {
       history.replaceState(null, "", writeAddress(this.state));
     } catch {
       // A page in a sandboxed frame has no address of its own.
     }
-    writeCommands(this.find(".arm-commands") as HTMLElement, this.data, this.state, this.worst);
+    this.showCode();
+  }
+
+  protected showCode(): void {
+    writeCommands(this.find(".arm-commands") as HTMLElement, this.data.texts, this.listCode());
+  }
+
+  /** Commands and Python lines that reproduce what the page shows. */
+  protected listCode(): Code[] {
+    return reproduce(this.data, this.state, this.worst, this.controlTarget);
   }
 
   /** Place what lies over the picture. */
-  private afterPicture(): void {
-    const tool = this.arm.toolPosition(this.state.q);
-    const goal = this.target === null ? tool : positionOf(this.target);
-    this.handle.place(this.view.project(goal));
-    this.overlay.show({ ...this.step.overlay(), ...(this.target === null ? {} : { pointerLine: [tool, goal] }) });
+  protected afterPicture(): void {
+    const tool = [...this.arm.toolPose(this.state.q)];
+    this.handle.place(this.target ?? tool);
+    this.overlay.show(this.overlayContent());
   }
 
-  private addHandle(): HTMLButtonElement {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.className = "tool-handle";
-    button.setAttribute("aria-label", this.data.texts.handle);
-    this.find(".view3d-stage")?.append(button);
-    return button;
+  protected overlayContent(): OverlayContent {
+    const content = this.step.overlay();
+    return this.target === null ? content : { ...content, pointerLine: [this.arm.toolPosition(this.state.q), place(this.target)] };
+  }
+
+  /** Add a handle that moves a pose; `text` is the key of what a screen reader says. */
+  protected addHandle(className: string, text: string, actions: HandleActions, axes = this.rotationAxes): PoseHandle {
+    const { texts } = this.data;
+    const labels: [string, string] = [texts[text], `${texts[text].split(".")[0]}. ${texts.handle_rotate}`];
+    const handle = new PoseHandle(this.view, { className, labels, axes }, actions);
+    this.handles.push(handle);
+    return handle;
+  }
+
+  /** Axes, 0 to 2, about which the task prescribes rotations. */
+  protected get rotationAxes(): number[] {
+    return [0, 1, 2].filter((axis) => this.data.taskRows.some((row) => Math.abs(row[3 + axis]) > 0.5));
+  }
+
+  protected addPictureButtons(): void {
+    const rotate = createToggle(this.data.texts.rotate, (on) => this.handles.forEach((handle) => handle.setRotating(on)));
+    const row = h("div", { class: "view3d-row" }, ...createViewButtons(this.view), this.rotationAxes.length ? rotate : null);
+    this.find(".view3d-controls")?.append(row);
   }
 
   private addStepButtons(): void {
     const list = this.find(".arm-steps");
     list?.removeAttribute("hidden");
-    for (const button of list?.querySelectorAll<HTMLButtonElement>("button") ?? []) {
-      const name = button.dataset.step as StepName;
+    for (const name of Object.keys(this.stepClasses)) {
+      let button = list?.querySelector<HTMLButtonElement>(`button[data-step="${name}"]`);
+      if (!button) {
+        button = h("button", { type: "button", "data-step": name }, this.data.texts[`step_${name}`]);
+        list?.append(h("li", {}, button));
+      }
       if (name === "power" && this.arm.kernels.accelerations === null) button.parentElement?.remove();
       if (name === "undetected" && this.data.story === null) button.parentElement?.remove();
       button.addEventListener("click", () => {
@@ -245,9 +291,7 @@ export class ArmPage {
     }
   }
 
-  private find(selector: string): HTMLElement | null {
+  protected find(selector: string): HTMLElement | null {
     return this.section.querySelector<HTMLElement>(selector);
   }
 }
-
-const positionOf = (pose: Pose): Vector => [pose[3], pose[7], pose[11]];

@@ -1,9 +1,19 @@
-/** One bar for each joint: the fraction of the motion that remains if that joint locks. A click changes its condition. */
+/** One bar for each joint: the fraction of the motion that remains, or an index, if that joint locks. A click changes its condition. */
 
 import type { Condition } from "./address";
-import { fillText, formatPercent } from "./phrases";
+import { fillText } from "./phrases";
 
 const NEXT: Record<Condition, Condition> = { healthy: "locked", locked: "free", free: "healthy" };
+export const nextCondition = (condition: Condition): Condition => NEXT[condition];
+
+export interface BarValues {
+  /** Length of each bar, from 0 to 1, and its text. */
+  fractions: number[];
+  texts: string[];
+  worst: number;
+  /** What a screen reader says after each text. */
+  meaning: string;
+}
 
 export class Bars {
   private readonly buttons: HTMLButtonElement[];
@@ -20,19 +30,17 @@ export class Bars {
     );
   }
 
-  /** Show the remaining fraction of each joint, the worst one, and the conditions. */
-  update(fractions: number[], worst: number, conditions: Condition[]): void {
+  update({ fractions, texts, worst, meaning }: BarValues, conditions: Condition[]): void {
     this.buttons.forEach((button, joint) => {
       const condition = conditions[joint];
-      const share = formatPercent(fractions[joint]);
       button.dataset.condition = condition;
       button.dataset.worst = String(joint === worst);
       button.style.setProperty("--fraction", String(Math.min(fractions[joint], 1)));
-      (button.querySelector(".bar-value") as HTMLElement).textContent = share;
+      (button.querySelector(".bar-value") as HTMLElement).textContent = texts[joint];
       (button.querySelector(".bar-condition") as HTMLElement).textContent =
         condition === "healthy" ? (joint === worst ? this.texts.worst : "") : this.texts[condition];
       const next = this.texts[`make_${NEXT[condition]}`];
-      (button.querySelector(".visually-hidden") as HTMLElement).textContent = fillText(this.texts.bar, { next });
+      (button.querySelector(".visually-hidden") as HTMLElement).textContent = fillText(meaning, { next });
     });
     this.list.dataset.failed = String(conditions.some((condition) => condition !== "healthy"));
   }

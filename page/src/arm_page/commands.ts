@@ -1,16 +1,31 @@
 /** Commands and Python lines that reproduce what the page shows. */
 
 import { h } from "../dom";
+import type { Vector } from "../viewer/scene";
 import type { PageState } from "./address";
 import type { ArmPageData } from "./data";
 
-export interface Reproduction {
+interface Reproduction {
   shell: string;
   python: string;
 }
 
-/** Return the command and the Python lines for the numbers of a state; `worst` is the joint with the worst bar, from 0. */
-export function reproduce(data: ArmPageData, state: PageState, worst: number): Reproduction {
+/** Code that reproduces a state. */
+export interface Code {
+  kind: "studio" | "shell" | "python";
+  text: string;
+}
+
+/**
+ * Return the command and the Python lines for the numbers of a state; `worst` is the joint with the worst bar, from 0, and
+ * `target` the target of the undetected lock, m.
+ */
+export function reproduce(data: ArmPageData, state: PageState, worst: number, target: Vector): Code[] {
+  const { shell, python } = writeCode(data, state, worst, target);
+  return [{ kind: "shell", text: shell }, { kind: "python", text: python }];
+}
+
+function writeCode(data: ArmPageData, state: PageState, worst: number, target: Vector): Reproduction {
   const q = Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(", ");
   const numbers = `"${q.replace(/ /g, "")}"`;
   const failed = state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
@@ -26,8 +41,6 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number): R
     return { shell: `holdfast describe ${data.argument}`, python: python("print(arm)") };
   }
   switch (state.step) {
-    case "healthy":
-      return index;
     case "lock":
       if (failed.length < 2) return index;
       return { shell: index.shell, python: python(
@@ -45,17 +58,17 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number): R
       };
     case "undetected": {
       if (data.story === null) return index;
-      const { laws, gain, speed, target } = data.story;
+      const { laws, gain, speed } = data.story;
       const locked = failed[0] ?? worst;
       const task = data.positionTask;
-      const goal = target.slice(0, task === "planar" ? 2 : 3);
+      const goal = target.slice(0, task === "planar" ? 2 : 3).map((value) => Number(value.toFixed(6)));
       return {
         shell: laws.map((law) => `holdfast simulate ${data.argument} --start=${numbers} --task ${task} --target=${goal.join(",")} ` +
           `--lock ${locked + 1} --law ${law.slug} --gain ${gain} --speed-limit ${speed}`).join("\n"),
         python: python(
           `for label in ["${laws[0].slug}", "${laws[1].slug}"]:`,
           `    law = hf.laws.by_name(label, arm, task="${task}", gain=${gain}, speed_limit=${speed})`,
-          `    print(hf.simulate(law, q, [${goal.join(", ")}], locked=[${locked}]).line_deviation())`,
+          `    print(hf.simulate(law, q, [${goal.join(", ")}], locked=[${locked}]).line_deviation(until=12))`,
         ),
       };
     }
@@ -63,34 +76,31 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number): R
       const seconds = state.brakeDelay / 1000;
       const joints = free.length ? ` --free ${free.map((joint) => joint + 1).join(",")}` : "";
       const option = free.length ? `, free=[${free.join(", ")}]` : "";
+      const swing = free.length === 1 ? `\nholdfast susceptibility ${data.argument} --measure swing-angle --q=${numbers}` : "";
       return {
-        shell: `holdfast power-loss ${data.argument} --q=${numbers}${joints} --coulomb 0 --stiction 0 --duration ${Math.max(seconds, 0.01)}`,
+        shell: `holdfast power-loss ${data.argument} --q=${numbers}${joints} --coulomb 0 --stiction 0 ` +
+          `--duration ${Math.max(seconds, 0.01)}${swing}`,
         python: python(
           `fall = hf.power_loss(arm, q${option}, friction=hf.Friction(coulomb=0), duration=0.5)`,
           `print(fall.drop_at(${seconds}))`,
         ),
       };
     }
+    default:
+      return index;
   }
 }
 
-/** Show the command and the Python lines, each with a button that copies it, and a button for the address. */
-export function writeCommands(details: HTMLElement, data: ArmPageData, state: PageState, worst: number): void {
-  const { texts } = data;
-  const { shell, python } = reproduce(data, state, worst);
+/** Show commands and Python lines, each with a button that copies it, and a button for the address. */
+export function writeCommands(details: HTMLElement, texts: Record<string, string>, list: Code[]): void {
   const status = h("span", { role: "status" });
   const copy = (text: () => string, label: string): HTMLButtonElement =>
     h("button", { type: "button", onclick: () => void copyText(text()).then(() => (status.textContent = texts.copied)) }, label);
-  details.replaceChildren(
-    h("summary", {}, texts.commands),
-    h("pre", { tabindex: 0, class: "command-shell" }, shell),
-    copy(() => shell, texts.copy_command),
-    h("pre", { tabindex: 0, class: "command-python" }, python),
-    copy(() => python, texts.copy_python),
-    " ",
-    copy(() => location.href, texts.copy_address),
-    status,
-  );
+  const blocks = list.flatMap(({ kind, text }) => [
+    h("pre", { tabindex: 0, class: `command-${kind}` }, text),
+    copy(() => text, texts[`copy_${kind}`]),
+  ]);
+  details.replaceChildren(h("summary", {}, texts.commands), ...blocks, " ", copy(() => location.href, texts.copy_address), status);
 }
 
 /** Copy a text, also in a page that has no clipboard, for example in a sandboxed frame. */

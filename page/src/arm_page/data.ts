@@ -22,7 +22,7 @@ export interface PrintedKernels {
 }
 
 /** A law in the story of the undetected lock. */
-export interface LawChoice {
+export interface StoryLaw {
   /** Key in `PrintedKernels.laws`. */
   slug: string;
   name: string;
@@ -34,7 +34,7 @@ export interface Story {
   start: number[];
   /** Target position of the tool for the undetected lock, m. */
   target: Vector;
-  laws: [LawChoice, LawChoice];
+  laws: [StoryLaw, StoryLaw];
   /** Proportional gain, 1/s, and the maximum speed of the tool, m/s. */
   gain: number;
   speed: number;

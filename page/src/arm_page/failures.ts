@@ -4,8 +4,11 @@ import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
 import { addScaled, dotProduct, factorRows, findSingularValues, solveTransposed, vectorNorm, type Rows } from "./small_matrices";
 
+/** Norm up to which the projection of locked joints onto the motions of the task is rounding. */
+const NO_PROJECTION = 1e-9;
+
 /** Return the relative manipulability (n) that remains if each joint locks, from 0 to 1. */
-export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array => Float64Array.from(arm.nullSpace(q), vectorNorm);
+export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array => new Float64Array(arm.nullSpace(q).map(vectorNorm));
 
 /** Return the joint, from 0, with the smallest value. */
 export const worstJoint = (manipulability: Float64Array): number => manipulability.indexOf(Math.min(...manipulability));
@@ -14,7 +17,7 @@ export const worstJoint = (manipulability: Float64Array): number => manipulabili
 export interface LostMotion {
   /** Fraction that remains of the largest speed along the twist at joint velocities of norm 1, from 0 to 1. */
   remaining: number;
-  /** Twist in the world (6) of norm 1, m/s and rad/s. */
+  /** Twist in the world (6) of norm 1, m/s and rad/s; 0 if all of its speed remains. */
   twist: Float64Array;
 }
 
@@ -30,7 +33,7 @@ export function lostMotions(arm: ArmModel, q: Values, locked: readonly number[])
   return fractions.reverse().map(({ value, direction }) => {
     const projection = Float64Array.from(basis, (row) => dotProduct(locked.map((joint) => row[joint]), direction));
     const motion = solveTransposed(lower, projection);
-    const norm = vectorNorm(motion) || 1;
+    const norm = vectorNorm(projection) > NO_PROJECTION ? vectorNorm(motion) : Infinity;
     const twist = Float64Array.from({ length: 6 }, (_, k) => dotProduct(arm.taskRows.map((row) => row[k]), motion) / norm);
     return { remaining: value, twist };
   });

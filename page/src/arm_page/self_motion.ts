@@ -32,15 +32,15 @@ export interface SelfMotion {
 const worstCase = (arm: ArmModel, q: Values): number => Math.min(...relativeManipulability(arm, q));
 
 /**
- * Trace the self-motion both ways from q: all of it for an arm with one redundant joint, otherwise the part along the
- * projected gradient of the worst case, where it rises and where it falls.
+ * Trace the self-motion both ways from q: all of it for an arm with one redundant joint, otherwise the part along a vector of
+ * the basis of the null space, or without one along the projected gradient of the worst case, where it rises and where it falls.
  */
-export function traceSelfMotion(arm: ArmModel, q: Values): SelfMotion {
+export function traceSelfMotion(arm: ArmModel, q: Values, column: number | null = null): SelfMotion {
   const start = Float64Array.from(q);
   const target = arm.toolPose(start);
-  const forward = traceOneWay(arm, start, target, 1);
+  const forward = traceOneWay(arm, start, target, 1, column);
   const isLoop = forward.end === "closed loop";
-  const backward: OneWay = isLoop ? { configurations: [], end: "closed loop" } : traceOneWay(arm, start, target, -1);
+  const backward: OneWay = isLoop ? { configurations: [], end: "closed loop" } : traceOneWay(arm, start, target, -1, column);
   const configurations = [...backward.configurations.reverse(), start, ...forward.configurations];
   const worst = configurations.map((configuration) => worstCase(arm, configuration));
   return {
@@ -57,11 +57,11 @@ interface OneWay {
   end: MotionEnd;
 }
 
-function traceOneWay(arm: ArmModel, start: Float64Array, target: Float64Array, sign: number): OneWay {
+function traceOneWay(arm: ArmModel, start: Float64Array, target: Float64Array, sign: number, column: number | null): OneWay {
   const configurations: Float64Array[] = [];
   let [q, previous]: [Float64Array, Float64Array | null] = [start, null];
   while (configurations.length < MAX_STEPS) {
-    const tangent = selfMotionDirection(arm, q, sign, previous);
+    const tangent = selfMotionDirection(arm, q, sign, previous, arm.redundancy === 1 ? 0 : column);
     if (tangent === null) return { configurations, end: "no progress" };
     const longest = Math.min(STEP_RAD, distanceToLimits(arm, q, tangent));
     if (longest < LEAST_STEP_RAD) return { configurations, end: "limit" };
@@ -93,12 +93,18 @@ function takeStep(
 }
 
 /** Return the unit direction (n) of the motion at q, which continues the previous one; null where it would turn back. */
-function selfMotionDirection(arm: ArmModel, q: Float64Array, sign: number, previous: Float64Array | null): Float64Array | null {
+function selfMotionDirection(
+  arm: ArmModel,
+  q: Float64Array,
+  sign: number,
+  previous: Float64Array | null,
+  column: number | null,
+): Float64Array | null {
   if (arm.redundancy === 0) return null;
-  if (arm.redundancy === 1) {
-    const tangent = nullDirection(arm, q, 0);
-    const orientation = previous === null ? sign : Math.sign(dotProduct(tangent, previous));
-    return tangent.map((value) => orientation * value);
+  if (column !== null) {
+    const tangent = previous === null ? nullDirection(arm, q, column) : projectOntoNullSpace(arm, q, previous);
+    const norm = (previous === null ? sign : 1) * vectorNorm(tangent);
+    return Math.abs(norm) < LEAST_COSINE ? null : tangent.map((value) => value / norm);
   }
   // Differences over a step average the gradients on both sides of a kink of the worst case.
   const slopes = Float64Array.from({ length: arm.redundancy }, (_, column) => {
@@ -111,9 +117,18 @@ function selfMotionDirection(arm: ArmModel, q: Float64Array, sign: number, previ
   return gradient.map((value) => (sign * value) / norm);
 }
 
+function projectOntoNullSpace(arm: ArmModel, q: Values, direction: Values): Float64Array {
+  const rows = arm.nullSpace(q);
+  const parts = Float64Array.from({ length: arm.redundancy }, (_, k) => rows.reduce((sum, row, j) => sum + row[k] * direction[j], 0));
+  return Float64Array.from(rows, (row) => dotProduct(row, parts));
+}
+
 /** Return a unit vector (n) of the basis of the null space. */
-const nullDirection = (arm: ArmModel, q: Values, column: number): Float64Array =>
-  Float64Array.from(arm.nullSpace(q), (row) => row[column]);
+function nullDirection(arm: ArmModel, q: Values, column: number): Float64Array {
+  const direction = new Float64Array(arm.jointCount);
+  arm.nullSpace(q).forEach((row, joint) => (direction[joint] = row[column]));
+  return direction;
+}
 
 /** Return how far q can move along a direction until a joint is at its limit. */
 function distanceToLimits(arm: ArmModel, q: Float64Array, direction: Float64Array): number {

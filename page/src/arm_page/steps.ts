@@ -3,28 +3,30 @@
 import { createSvg, h } from "../dom";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Vector } from "../viewer/scene";
-import type { Condition, StepName } from "./address";
+import type { GhostColor } from "../viewer/view";
 import type { ArmPage } from "./arm_page";
 import { simulateControl, type ControlledMotion } from "./closed_loop";
 import { drawCurve } from "./curves";
 import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
-import { capitalise, fillText, formatAngle, formatLength, formatPercent, joinNames } from "./phrases";
+import { capitalise, fillText, formatAngle, formatLength, formatPercent } from "./phrases";
 import { simulateFall, swingJoint, type Fall, type Swing } from "./power_loss";
+import { Player } from "./player";
 import { traceSelfMotion, type SelfMotion } from "./self_motion";
 
 const MAX_BRAKE_DELAY_MS = 500;
 const BRAKE_DELAY_STEP_MS = 10;
 const SLIDE_SPEED_SAMPLES_PER_PICTURE = 2; // on the way to the best configuration
+const PAUSE_RATIO = 25;
 const STRUCTURAL_ZERO = 1e-6; // relative manipulability below which a joint has no substitute
 const PLAY_SPEED = 2; // simulated seconds per second
-export type TrailStyle = "solid" | "dotted" | "dashed";
-const TRAIL_STYLES: TrailStyle[] = ["solid", "dotted", "dashed"];
+const TRAIL_STYLES = ["solid", "dotted", "dashed"] as const;
 
-export abstract class Step {
+export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Configurations that the picture shows transparently. */
   ghosts: ArrayLike<number>[] = [];
+  ghostColors: GhostColor[] = [];
 
-  constructor(protected readonly page: ArmPage) {}
+  constructor(protected readonly page: Page) {}
 
   /** Set the joints and write the controls, after the visitor has chosen the step. */
   abstract enter(): void;
@@ -32,6 +34,18 @@ export abstract class Step {
   abstract update(): void;
   /** Return the headline and its detail. */
   abstract sentences(): [string, string];
+
+  /** End of the last long computation, and its duration, ms. */
+  private computed = { end: -Infinity, duration: 0 };
+
+  /** Compute at once, or, during a drag, only after a pause of 25 times the last duration, so that pictures stay in time. */
+  protected computeWhenDue(compute: () => void): void {
+    const start = performance.now();
+    if (this.page.dragging && start - this.computed.end < PAUSE_RATIO * this.computed.duration) return;
+    compute();
+    const end = performance.now();
+    this.computed = { end, duration: end - start };
+  }
 
   /** Compute what takes longer than a picture, after a drag. */
   rest(): void {}
@@ -53,6 +67,13 @@ export abstract class Step {
 
   protected button(key: string, action: () => void): HTMLButtonElement {
     return h("button", { type: "button", onclick: action }, this.text(key));
+  }
+
+  /** A menu with a label; `choose` is called with the index of the selected option. */
+  protected menu(key: string, options: string[], selected: number, choose: (index: number) => void): HTMLLabelElement {
+    const menu = h("select", {}, ...options.map((name, k) => h("option", { selected: k === selected }, name)));
+    menu.addEventListener("change", () => choose(menu.selectedIndex));
+    return h("label", {}, h("span", {}, this.text(key)), menu);
   }
 
   protected slider(key: string, max: number, step: number, value: number, input: (value: number) => void): HTMLInputElement {
@@ -130,27 +151,40 @@ export class PrepareStep extends Step {
   private timer = 0;
   private input = this.slider("self_motion", 0, 1, 0, (index) => this.slide(index));
   private curve = h("div");
+  /** Vector of the null-space basis along which the arm moves; null for the direction in which the worst case rises. */
+  private direction: number | null = null;
 
   enter(): void {
     this.page.repairAll();
     this.motion = null;
     const best = this.button("go_to_best", () => this.goToBest());
-    this.page.controls.replaceChildren(this.curve, this.input, h("div", { class: "step-row" }, best));
+    const { redundancy } = this.page.arm;
+    const names = [this.text("steepest"), ...Array.from({ length: redundancy }, (_, k) => String(k + 1))];
+    const menu = this.menu("direction", names, (this.direction ?? -1) + 1, (index) => {
+      this.direction = index ? index - 1 : null;
+      this.motion = null;
+      this.page.changeConditions(() => undefined);
+    });
+    this.page.controls.replaceChildren(this.curve, this.input, h("div", { class: "step-row" }, best, redundancy > 1 ? menu : null));
   }
 
   update(): void {
     const { arm, state } = this.page;
-    if (this.motion?.configurations[this.index] !== state.q) {
-      this.motion = traceSelfMotion(arm, state.q);
+    if (this.motion?.configurations[this.index] === state.q) return this.showMotion(this.motion);
+    this.computeWhenDue(() => {
+      this.motion = traceSelfMotion(arm, state.q, this.direction);
       this.index = this.motion.start;
       this.input.max = String(this.motion.configurations.length - 1);
-    }
-    const { worst, best } = this.motion;
+      this.showMotion(this.motion);
+    });
+  }
+
+  private showMotion({ worst, best }: SelfMotion): void {
     this.input.value = String(this.index);
     this.input.disabled = worst.length < 2;
     this.input.setAttribute("aria-valuetext", this.sentences()[0]);
     const bound = this.page.data.bound;
-    const yMax = Math.max(...worst, bound) * 1.08;
+    const yMax = Math.max(...worst, bound);
     this.curve.replaceChildren(
       drawCurve({
         x: worst.map((_, k) => k),
@@ -161,7 +195,7 @@ export class PrepareStep extends Step {
         xEnds: ["", ""],
         yLabel: this.text("curve_worst"),
         marker: this.index,
-        limit: bound ? { y: bound, label: this.text("curve_bound", { bound: formatPercent(bound) }) } : undefined,
+        limit: bound ? { y: bound, label: this.text("curve_bound") } : undefined,
         alternative: this.text("curve_worst_alternative", {
           first: formatPercent(worst[0]),
           last: formatPercent(worst[worst.length - 1]),
@@ -204,11 +238,7 @@ export class PrepareStep extends Step {
 
 export class UndetectedStep extends Step {
   private motions: ControlledMotion[] = [];
-  private time = 0;
-  private timer = 0;
-  private input = this.slider("time", 1, 0.02, 0, (time) => this.showTime(time));
-  private playButton = this.button("play", () => this.play());
-  private readout = h("output");
+  private readonly player = new Player({ texts: this.page.data.texts, speed: PLAY_SPEED, show: () => this.showTime() });
   private deviations: HTMLElement[] = [];
   private line: [Vector, Vector] | null = null;
 
@@ -227,7 +257,7 @@ export class UndetectedStep extends Step {
     const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
     this.page.controls.replaceChildren(
       ...names.map((name, k) => h("div", { class: "step-row" }, key(k, name))),
-      h("label", {}, this.playButton, this.input, this.readout),
+      this.player.element,
     );
     this.rest();
   }
@@ -238,12 +268,11 @@ export class UndetectedStep extends Step {
   override rest(): void {
     const { arm, state, failed, data } = this.page;
     const { story } = data;
-    if (story === null || this.timer) return;
+    if (story === null || this.player.playing) return;
     const self = traceSelfMotion(arm, state.q);
     const prepared = self.configurations[self.best];
-    const [tool, first] = [arm.toolPosition(state.q), arm.toolPosition(story.start)];
-    const target = tool.map((value, k) => value + story.target[k] - first[k]) as Vector;
-    this.line = [tool, target];
+    const target = this.page.controlTarget;
+    this.line = [arm.toolPosition(state.q), target];
     const starts = [state.q, state.q, prepared];
     const laws = [story.laws[0], story.laws[1], story.laws[0]];
     this.motions = starts.map((start, k) =>
@@ -252,13 +281,12 @@ export class UndetectedStep extends Step {
     this.motions.forEach(({ deviation }, k) => {
       this.deviations[k].textContent = this.text("deviation", { deviation: formatLength(deviation) });
     });
-    this.input.max = String(this.duration);
-    this.showTime(this.duration);
-    if (!this.page.reducedMotion) this.play();
+    this.player.open(Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1])));
+    if (!this.page.reducedMotion) this.player.play();
   }
 
   override leave(): void {
-    this.stop();
+    this.player.stop();
   }
 
   override get configuration(): ArrayLike<number> {
@@ -281,83 +309,54 @@ export class UndetectedStep extends Step {
     return { trails: trails.filter((trail) => trail.points.length > 1), pointerLine: this.line ?? undefined };
   }
 
-  private get duration(): number {
-    return Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1]));
-  }
-
   private sample(motion: number): number {
-    return Math.min(Math.round(this.time / 0.02), this.motions[motion].time.length - 1);
+    return Math.min(Math.round(this.player.time / 0.02), this.motions[motion].time.length - 1);
   }
 
   private at(motion: number): ArrayLike<number> {
     return this.motions[motion].configurations[this.sample(motion)];
   }
 
-  private showTime(time: number): void {
-    this.time = time;
+  private showTime(): void {
     this.ghosts = [this.at(1), this.at(2)];
-    this.input.value = String(time);
-    this.readout.textContent = `${time.toFixed(1)} s`;
-    this.input.setAttribute("aria-valuetext", `${time.toFixed(1)} s`);
     this.page.draw();
-  }
-
-  private stop(): void {
-    cancelAnimationFrame(this.timer);
-    this.timer = 0;
-    this.playButton.textContent = this.text("play");
-  }
-
-  private play(): void {
-    if (this.timer) return this.stop();
-    const from = this.time >= this.duration ? 0 : this.time;
-    let begun = 0;
-    const tick = (now: number): void => {
-      begun ||= now;
-      this.showTime(Math.min(this.duration, from + (PLAY_SPEED * (now - begun)) / 1000));
-      if (this.time >= this.duration) this.stop();
-      else this.timer = requestAnimationFrame(tick);
-    };
-    this.playButton.textContent = this.text("pause");
-    this.timer = requestAnimationFrame(tick);
   }
 }
 
-export class PowerStep extends Step {
+export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
   private fall: Fall | null = null;
   private swing: Swing | null = null;
   private input = this.slider("brake_delay", MAX_BRAKE_DELAY_MS, BRAKE_DELAY_STEP_MS, 0, (delay) => this.setDelay(delay));
   private readout = h("output");
-  private menu = h("select");
+  private joints = h("label");
   private curve = h("div");
 
   enter(): void {
-    this.page.changeConditions(() => this.page.repairAll());
-    const options = [this.text("all_joints"), ...this.page.data.jointLabels];
-    this.menu = h("select", {}, ...options.map((name) => h("option", {}, name)));
-    this.menu.addEventListener("change", () => {
-      const joint = this.menu.selectedIndex - 1;
+    this.page.repairAll();
+    this.joints = this.menu("torque_lost", [this.text("all_joints"), ...this.page.data.jointLabels], 0, (index) => {
       this.page.changeConditions(() => {
         this.page.repairAll();
-        if (joint >= 0) this.page.setCondition(joint, "free");
+        if (index > 0) this.page.setCondition(index - 1, "free");
       });
     });
     this.page.controls.replaceChildren(
       this.curve,
       h("label", {}, h("span", {}, this.text("brake_delay")), this.input, this.readout),
-      h("label", {}, h("span", {}, this.text("torque_lost")), this.menu),
+      this.joints,
     );
   }
 
   update(): void {
     const { arm, state, data } = this.page;
     const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
-    this.menu.selectedIndex = free.length === 1 ? free[0] + 1 : 0;
+    (this.joints.control as HTMLSelectElement).selectedIndex = free.length === 1 ? free[0] + 1 : 0;
     const falling = state.conditions.map((condition): number =>
       Number(free.length ? condition === "free" : condition === "healthy"));
-    this.fall = simulateFall(arm, state.q, falling, MAX_BRAKE_DELAY_MS / 1000, data.gravity);
-    this.swing = free.length === 1 ? swingJoint(arm, state.q, free[0]) : null;
-    this.showDelay();
+    this.computeWhenDue(() => {
+      this.fall = simulateFall(arm, state.q, falling, MAX_BRAKE_DELAY_MS / 1000, data.gravity);
+      this.swing = free.length === 1 ? swingJoint(arm, state.q, free[0]) : null;
+      this.showDelay();
+    });
   }
 
   sentences(): [string, string] {
@@ -419,14 +418,11 @@ export class PowerStep extends Step {
   }
 }
 
-export const STEP_CLASSES: Record<StepName, new (page: ArmPage) => Step> = {
+export type StepClasses = Record<string, new (page: ArmPage) => Step>;
+export const STEP_CLASSES: StepClasses = {
   healthy: HealthyStep,
   lock: LockStep,
   prepare: PrepareStep,
   undetected: UndetectedStep,
   power: PowerStep,
 };
-
-/** Names of joints and the condition that they share. */
-export type { Condition };
-export { joinNames };

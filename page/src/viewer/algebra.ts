@@ -28,13 +28,18 @@ export function times(a: Pose, b: Pose): Pose {
   return out;
 }
 
+/** The pose that undoes a pose. */
+export function inverse(a: Pose): Pose {
+  return [0, 1, 2].flatMap((k) => [a[k], a[4 + k], a[8 + k], -dot(column(a, k), place(a))]);
+}
+
 export const place = (a: Pose): Vector => [a[3], a[7], a[11]];
 export const column = (a: Pose, k: number): Vector => [a[k], a[4 + k], a[8 + k]];
 
-function motion({ axis: [x, y, z], slides }: Joint, value: number): Pose {
-  if (slides) return [1, 0, 0, x * value, 0, 1, 0, y * value, 0, 0, 1, z * value];
-  const c = Math.cos(value);
-  const s = Math.sin(value);
+/** A rotation about a unit axis by an angle, rad. */
+export function rotation([x, y, z]: Vector, angle: number): Pose {
+  const c = Math.cos(angle);
+  const s = Math.sin(angle);
   const v = 1 - c; // Rodrigues
   return [
     ...[c + v * x * x, v * x * y - s * z, v * x * z + s * y, 0],
@@ -42,6 +47,15 @@ function motion({ axis: [x, y, z], slides }: Joint, value: number): Pose {
     ...[v * x * z - s * y, v * y * z + s * x, c + v * z * z, 0],
   ];
 }
+
+function motion({ axis, slides }: Joint, value: number): Pose {
+  const [x, y, z] = axis;
+  return slides ? [1, 0, 0, x * value, 0, 1, 0, y * value, 0, 0, 1, z * value] : rotation(axis, value);
+}
+
+/** A point in the frame of a pose, m, in the world. */
+export const transform = (pose: Pose, point: Vector): Vector =>
+  [0, 4, 8].map((i) => pose[i] * point[0] + pose[i + 1] * point[1] + pose[i + 2] * point[2] + pose[i + 3]) as Vector;
 
 /** Poses in the world of the base, of what moves with each joint and of the tool, as `Arm.frames` in Python. */
 export function frames(chain: Chain, q: number[]): Pose[] {

@@ -68,10 +68,9 @@ export function listenToPointers(view: View): void {
   });
 }
 
-/** Choose a point on a click, and report it. */
+/** Report the point, the joint, or the object on which the visitor has clicked. */
 function pick(view: View, event: PointerEvent): void {
   const { canvas, scene } = view;
-  if (!scene.points.length) return;
   const bounds = canvas.getBoundingClientRect();
   let [best, nearest] = [-1, Infinity];
   scene.points.forEach((point, k) => {
@@ -80,4 +79,5 @@ function pick(view: View, event: PointerEvent): void {
     if (off < 9 && p[2] < nearest) [best, nearest] = [k, p[2]];
   });
   if (best >= 0) view.choose(best);
+  else view.pick([event.clientX - bounds.left, event.clientY - bounds.top]);
 }

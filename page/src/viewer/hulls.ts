@@ -1,6 +1,6 @@
 /** Draws each part as the convex hull of its projected corners on a canvas; needs no graphics card. */
 
-import { across, cross, sum, unit } from "./algebra";
+import { across, cross, sum, transform, unit } from "./algebra";
 import { project } from "./camera";
 import { css } from "./palette";
 import type { Body, Lines, Picture, Renderer } from "./renderer";
@@ -66,6 +66,19 @@ export function hull(points: Point[]): Point[] {
     return chain.slice(0, -1);
   };
   return [...half(sorted), ...half(sorted.reverse())];
+}
+
+/** The body under a point of the picture, pixels, whose surface is nearest to the eye; null for none. */
+export function findBody<B extends Pick<Body, "part" | "pose">>(bodies: B[], locate: (point: Vector) => Vector, point: Point): B | null {
+  let [found, nearest]: [B | null, number] = [null, Infinity];
+  for (const body of bodies) {
+    const points = corners(body.part).map((corner) => locate(transform(body.pose, corner)));
+    const depth = Math.min(...points.map((corner) => corner[2]));
+    const outline = hull(points);
+    const inside = outline.every((corner, k) => area(corner, outline[(k + 1) % outline.length], point) >= 0);
+    if (inside && depth > NEAREST_M && depth < nearest) [found, nearest] = [body, depth];
+  }
+  return found;
 }
 
 /** The piece of a segment before the eye, if any. */

@@ -19,7 +19,7 @@ export interface DrawnEllipsoid {
 
 export interface Trail {
   points: Vector[];
-  style: "solid" | "dotted" | "dashed";
+  style: "solid" | "dotted" | "dashed" | "green" | "orange" | "purple";
 }
 
 export interface LostMotion {
@@ -36,6 +36,8 @@ export interface OverlayContent {
   lost?: LostMotion[];
   /** A dotted line from the tool to where the pointer wants it. */
   pointerLine?: [Vector, Vector];
+  /** The shortest distance from the arm to an object. */
+  nearestLine?: [Vector, Vector];
 }
 
 /** From a point of the world, m, to CSS pixels from the upper left corner of the picture. */
@@ -106,7 +108,7 @@ export class Overlay {
   }
 
   /** Show the content, and a padlock at each locked joint. */
-  show({ ellipsoids = [], trails = [], lost = [], pointerLine }: OverlayContent): void {
+  show({ ellipsoids = [], trails = [], lost = [], pointerLine, nearestLine }: OverlayContent): void {
     const { view } = this;
     const { clientWidth, clientHeight } = view.canvas;
     const matrix = view.camera.matrix(clientWidth / clientHeight);
@@ -117,7 +119,8 @@ export class Overlay {
       ...trails.map((trail) => drawTrail(locate, trail)),
       ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size, clientWidth)),
       ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
-      ...(pointerLine ? [createSvg("path", { class: "overlay-gap", d: formatPath(pointerLine.map(locate)) })] : []),
+      ...[["gap", pointerLine], ["nearest", nearestLine]].flatMap(([name, line]) =>
+        line ? [createSvg("path", { class: `overlay-${name}`, d: formatPath((line as Vector[]).map(locate)) })] : []),
     );
   }
 }

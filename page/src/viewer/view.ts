@@ -1,16 +1,18 @@
 /** One view of an arm, which can be rotated and, if it has a motion, played. */
 
-import { between, column, frames, place, sum } from "./algebra";
+import { between, column, frames, place, sum, times } from "./algebra";
 import { Camera, project } from "./camera";
 import { controls } from "./controls";
 import { listenToPointers } from "./gestures";
+import { findBody } from "./hulls";
 import { writeLabels, type Label } from "./labels";
 import { choosePalette, css, type Palette } from "./palette";
 import { chooseRenderer, type Body, type Picture, type Renderer } from "./renderer";
-import type { Pose, Scene, Vector } from "./scene";
+import type { Part, Pose, Scene, Vector } from "./scene";
 import { cell, circle, edges, floor, joined, mark, triad } from "./things";
 
 export type Condition = "locked" | "free" | null;
+export type GhostColor = "green" | "orange" | "purple" | "blue";
 
 export interface ViewOptions {
   /** Poses of base, joints, and tool at a configuration; computed from the joints of the scene if absent. */
@@ -23,16 +25,25 @@ export class View {
   readonly camera: Camera;
   /** Called after each picture, for example to place what lies over the canvas. */
   onDraw: (() => void) | null = null;
+  /** Called after a click on the body of a joint or on an object around the arm. */
+  onPick: ((part: Part) => void) | null = null;
+  /** Motion of each object of the cell from its place in the scene, in the world. */
+  objectMotions: Pose[] = [];
+  /** Index of the object that the arm touches; -1 for none. */
+  touchedObject = -1;
   names: boolean | null = null;
   private at = 0; // frame of the motion, with its fraction
   private posed: number[] | null = null;
   private ghosts: number[][] | null = null;
+  private ghostColors: GhostColor[] = [];
   private conditions: Condition[] | null = null;
   private chosen = -1;
   private trails: Vector[][] | null = null;
   private waiting = 0;
   private visible = false;
   private readonly floor: Vector[];
+  /** Parts of the objects around the arm. */
+  readonly objects: Part[];
   private readonly show: (k: number) => void;
   private readonly solve: (q: number[]) => Pose[];
 
@@ -47,6 +58,7 @@ export class View {
     this.solve = options.frames ?? ((q) => frames(scene, q));
     this.camera = new Camera(scene);
     this.floor = floor(scene);
+    this.objects = scene.parts.filter((part) => part.object);
     listenToPointers(this);
     this.show = options.plain ? () => undefined : controls(this);
     new IntersectionObserver((seen) => {
@@ -73,8 +85,8 @@ export class View {
   }
 
   /** Show other configurations, rad and m, as transparent arms; null for those of the scene. */
-  setGhosts(ghosts: number[][] | null): void {
-    this.ghosts = ghosts;
+  setGhosts(ghosts: number[][] | null, colors: GhostColor[] = []): void {
+    [this.ghosts, this.ghostColors] = [ghosts, colors];
     this.draw();
   }
 
@@ -140,6 +152,18 @@ export class View {
     this.draw();
   }
 
+  /** Report the joint or the object at a point of the picture, CSS pixels. */
+  pick(point: number[]): void {
+    const bodies = this.placeParts(this.scene.parts.filter((part) => part.joint !== undefined || part.object), this.frames());
+    const found = this.onPick && findBody(bodies, (corner) => this.project(corner), point);
+    if (found) this.onPick?.(found.part);
+  }
+
+  /** Mark no point of the scene. */
+  unchoose(): void {
+    this.chosen = -1;
+  }
+
   /** Draw as soon as the browser does. */
   draw(): void {
     this.waiting ||= requestAnimationFrame(() => {
@@ -177,14 +201,14 @@ export class View {
     };
     if (!renderer.hidesFarther) paintGhosts();
     renderer.solids(this.bodies(0, poses[0], palette));
-    if (!this.options.plain) this.paintSurroundings(renderer, poses, palette, ratio);
+    this.paintSurroundings(renderer, poses, palette, ratio);
     if (renderer.hidesFarther) paintGhosts();
     renderer.over(true);
     renderer.solids(this.bodies(0, poses[0], palette, true), 0.75);
     const labels = this.options.plain ? [] : this.paintMarks(renderer, poses[0].at(-1) as Pose, palette, ratio);
     renderer.over(false);
     renderer.finish();
-    if (this.options.plain) return true;
+    if (this.options.plain && !this.names) return true;
     labels.push(...this.armLabels(poses, palette), ...this.jointLabels(poses[0], palette));
     if (this.names) labels.push(...scene.objects.map(({ name, at }) => ({ text: name, at, color: palette.soft })));
     writeLabels(labels, picture, ratio);
@@ -203,14 +227,24 @@ export class View {
   /** Parts of an arm, or the marks of its failed joints. */
   private bodies(arm: number, poses: Pose[], palette: Palette, marks = false): Body[] {
     const failed = { locked: palette.orange, free: palette.purple };
-    return this.scene.parts
-      .filter((part) => (marks ? part.mark && this.condition(part.joint) : !part.mark) && !(arm && !part.frame))
-      .map((part) => {
-        const condition = this.condition(part.joint);
-        const own = part.color.map((x) => x / 255) as Vector;
-        const color = condition ? failed[condition] : arm ? this.colors(palette)[arm % 5] : own;
-        return { part, pose: poses[part.frame], color };
-      });
+    const ghost = palette[this.ghostColors[arm - 1]] ?? this.colors(palette)[arm % 5];
+    const parts = this.scene.parts.filter(
+      (part) => (marks ? part.mark && this.condition(part.joint) : !part.mark) && !(arm && !part.frame),
+    );
+    return this.placeParts(parts, poses).map(({ part, pose }) => {
+      const condition = this.condition(part.joint);
+      const own = part.color.map((x) => x / 255) as Vector;
+      const touched = part.object && this.objects.indexOf(part) === this.touchedObject;
+      return { part, pose, color: touched ? palette.orange : condition ? failed[condition] : arm ? ghost : own };
+    });
+  }
+
+  /** The pose of each part in the world; objects of the cell may have moved. */
+  private placeParts(parts: Part[], poses: Pose[]): Pick<Body, "part" | "pose">[] {
+    return parts.map((part) => {
+      const moved = part.object && this.objectMotions[this.objects.indexOf(part)];
+      return { part, pose: moved ? times(moved, poses[part.frame]) : poses[part.frame] };
+    });
   }
 
   /** Draw boxes, paths, and points. */

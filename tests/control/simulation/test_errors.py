@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+import oracles
 from holdfast.control.simulation.errors import error_history
 
 
@@ -57,3 +58,35 @@ def test_a_run_at_rest_keeps_its_error_and_one_under_way_has_none_later():
     assert history.end.angle == 0
     short = hf.simulate(law, np.deg2rad([0.0, -30.0]), [0.0, 3**0.5], locked=[0], time_limit=5.0)
     assert [error.time for error in error_history(short).later] == [1]
+
+
+@pytest.mark.parametrize(("name", "task", "joint"), [("panda", "position", 3), ("planar-3r", "planar", 1)])
+def test_the_deviation_from_the_line_is_that_of_an_independent_integration(rng, name, task, joint):
+    arm = hf.arms.load(name)
+    law = hf.laws.by_name("pseudoinverse", arm, task=task, gain=2.0, speed_limit=0.25)
+    start = oracles.inside(arm, rng, 1)[0]
+    near = np.clip(start + rng.uniform(-0.5, 0.5, (3, arm.n)), arm.lower, arm.upper)
+    targets = arm.forward_kinematics(near)[:, :3, 3]
+    runs = hf.simulate(law, start, targets @ law.task.rows[:, :3].T, locked=[joint])
+    rows = law.task.rows[:, :3]
+
+    def rates(t, q, target):
+        error = rows @ (target - arm.forward_kinematics(q)[:3, 3])
+        speed = min(2.0, 0.25 / np.linalg.norm(error))
+        return np.where(np.arange(arm.n) == joint, 0, np.linalg.pinv(rows @ arm.jacobian(q)[:3]) @ (speed * error))
+
+    for k, target in enumerate(targets):
+        motion = solve_ivp(
+            rates, (0, 5), start, "DOP853", rtol=1e-9, atol=1e-11, args=(target,), t_eval=np.linspace(0, 5, 4001)
+        )
+        points = arm.forward_kinematics(motion.y.T)[:, :3, 3]
+        line = target - points[0]
+        fraction = np.clip((points - points[0]) @ line / (line @ line), 0, 1)
+        expected = np.linalg.norm(points - points[0] - fraction[:, None] * line, axis=1)
+        assert runs.line_deviation(k, until=5.0) == pytest.approx(expected.max(), abs=2e-5)
+        assert runs.line_deviation(k, until=1.0) == pytest.approx(expected[:801].max(), abs=2e-5)
+        assert runs.line_deviation(k) >= expected.max() - 2e-5
+    single = hf.simulate(law, start, rows @ targets[0], locked=[joint])
+    assert single.line_deviation() == pytest.approx(runs.line_deviation(0), abs=1e-9)
+    with pytest.raises(hf.InputError, match="there is no run 3"):
+        runs.line_deviation(3)

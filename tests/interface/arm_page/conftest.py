@@ -17,7 +17,7 @@ from holdfast.model.arm.task import as_task, default_path_task
 from javascript import node
 
 PAGE = Path(__file__).parents[3] / "page"
-MODULES = ("arm_model", "closed_loop", "failures", "power_loss", "self_motion", "small_matrices", "tool_drag")
+MODULES = ("arm_model", "closed_loop", "commands", "failures", "power_loss", "self_motion", "small_matrices", "tool_drag")
 CRANE = Path(__file__).parents[1] / "studio" / "arms" / "inspection-crane.urdf"
 _MAIN = """\
 import {{ readFileSync, writeFileSync }} from "node:fs";
@@ -33,9 +33,9 @@ writeFileSync("results.json", JSON.stringify(data.rows.map((row) => call(page, a
 class PageArm:
     """An arm on a page, for a task."""
 
-    def __init__(self, arm: hf.Arm, folder: Path) -> None:
+    def __init__(self, arm: hf.Arm, folder: Path, task: str = "") -> None:
         self.arm, self.folder = arm, folder
-        self.task = as_task(arm, default_path_task(arm, oriented=True))
+        self.task = as_task(arm, task or default_path_task(arm, oriented=True))
         if self.task.m == arm.n:
             self.task = as_task(arm, default_path_task(arm, oriented=False))
         self.kernels = print_page_kernels(arm, self.task)
@@ -56,10 +56,10 @@ class PageArm:
         return json.loads((self.folder / "results.json").read_text(encoding="utf-8"))
 
 
-def bundle(folder: Path, sources: Path = PAGE / "src" / "arm_page") -> None:
+def bundle(folder: Path) -> None:
     """Bundle the page's numerics into ``page.mjs`` of a folder."""
     assert (PAGE / "node_modules").is_dir(), "the page's tools are not installed: 'make test' installs them"
-    entry = folder / "entry.ts"
+    entry, sources = folder / "entry.ts", PAGE / "src" / "arm_page"
     entry.write_text("".join(f'export * from "{(sources / module).as_posix()}";\n' for module in MODULES), encoding="utf-8")
     command = [str(PAGE / "node_modules" / ".bin" / "rolldown"), str(entry), "-f", "esm", "-o", str(folder / "page.mjs")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -68,12 +68,13 @@ def bundle(folder: Path, sources: Path = PAGE / "src" / "arm_page") -> None:
 
 @pytest.fixture(scope="session")
 def page_arm(tmp_path_factory):
-    """``page_arm(name)``: a built-in arm, or ``crane``: seven joints of a URDF, one of them sliding."""
+    """``page_arm("arm")`` or ``page_arm("arm task")``: a built-in arm, or ``crane``: a URDF with a slide and six hinges."""
     folder = tmp_path_factory.mktemp("page")
     bundle(folder)
 
     @lru_cache
     def make(name: str) -> PageArm:
-        return PageArm(hf.Arm.from_urdf(CRANE) if name == "crane" else arms.load(name), folder)
+        label, _, task = name.partition(" ")
+        return PageArm(hf.Arm.from_urdf(CRANE) if label == "crane" else arms.load(label), folder, task)
 
     return make

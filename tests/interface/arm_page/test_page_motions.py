@@ -8,7 +8,7 @@ import oracles
 from holdfast import control
 from holdfast.model.arm.task import default_path_task
 
-ARMS = ("panda", "iiwa14", "pa10-9dof", "planar-3r", "crane")
+ARMS = ("panda", "panda position", "iiwa14", "pa10-9dof", "planar-3r", "crane")
 GAIN, SPEED_M_S, STEP_S = 2.0, 0.25, 0.02
 
 
@@ -72,6 +72,10 @@ def test_a_target_beyond_the_arm_is_not_reached(page_arm, rng):
     rows = list(zip(q, targets, strict=True))
     found = page.call("(page, arm, [q, target]) => page.searchTarget(arm, q, target, arm.freeJoints([]))", rows)
     assert not any(row["reached"] for row in found)
+    script = """(page, arm, [q, target]) => Array.from({length: 31}, (_, steps) =>
+        page.reachTarget(arm, q, target, arm.freeJoints([]), steps).error)"""
+    errors = np.array(page.call(script, rows))
+    assert (np.diff(errors) <= 0).all()  # a further step never leads away
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -100,7 +104,7 @@ def test_the_tool_stays_on_the_self_motion(page_arm, rng, name):
 @pytest.mark.parametrize("name", ["panda", "planar-3r", "crane"])
 def test_the_self_motion_is_the_whole_curve(page_arm, rng, name):
     page, compared = page_arm(name), 0
-    starts = oracles.inside(page.arm, rng, 4)
+    starts = oracles.inside(page.arm, rng, 8)
     for start, motion in zip(starts, page.call("(page, arm, q) => page.traceSelfMotion(arm, q)", starts.tolist()), strict=True):
         q = np.array(motion["configurations"])
         curves = hf.self_motion(page.arm, page.arm.forward_kinematics(start), page.task, spacing=0.03).components
@@ -112,6 +116,16 @@ def test_the_self_motion_is_the_whole_curve(page_arm, rng, name):
                 length = np.linalg.norm(np.diff(q, axis=0), axis=1).sum()
                 assert abs(length - curve.length) < 0.06 + 0.02 * curve.length
     assert compared
+
+
+@pytest.mark.parametrize("name", ["panda", "iiwa14", "crane"])
+def test_a_self_motion_ends_at_limits(page_arm, rng, name):
+    """Close to a singular configuration it turns within a step, and goes on."""
+    page = page_arm(name)
+    starts = oracles.inside(page.arm, rng, 40)
+    assert all(
+        "no progress" not in ends for ends in page.call("(page, arm, q) => page.traceSelfMotion(arm, q).ends", starts.tolist())
+    )
 
 
 def closed_loops(page, rng, name, count, label):

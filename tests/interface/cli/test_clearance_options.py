@@ -225,6 +225,7 @@ CALLS = {
     "follow": ("panda", "line.yaml", "--minimise", "torque"),
     "power-loss": ("panda", "--q", "0 -0.2 0 -1.6 0 1.6 0.8", "--physics"),
     "optimise": BEST[1:],
+    "page": ("panda", "--out", "panda.html"),
     "stow": ("panda", "--coulomb", "9", "--samples", "100"),
     "recover": ("panda", "--lock", "panda_joint4=-1.2", "--goal", "0.5,0.2,0.4"),
     "self-motion": ("planar-3r", "--target", "1.5,1.5"),

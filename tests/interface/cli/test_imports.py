@@ -20,7 +20,7 @@ from holdfast.interface.cli.program import COMMAND_MODULES, PANEL_TITLES, build_
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
 HEAVY = {"scipy", "scipy.stats", "matplotlib", "jinja2", "xarray", "zarr", "pydantic", "mujoco"}
 BESIDE_XARRAY = {"pandas", "pyarrow", "dask"}  # where they are installed
-SERVING = {"starlette", "uvicorn", "viser", "websockets"}
+SERVING = {"starlette", "uvicorn", "websockets"}
 STATISTICS = {"statsmodels", "pingouin"}
 FILES = {"pydantic"}
 

@@ -272,12 +272,6 @@ def test_a_file_without_poses(refused, tmp_path):
     assert "line 2: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
 
 
-def test_the_list_of_commands_names_what_is_needed(cli):
-    _, out, _ = cli("--help")
-    assert "(needs the extra 'view')" in " ".join(out.replace("│", " ").split())
-    assert "optimise" in out
-
-
 def test_failures_restrict_what_may_fail(ask, panda):
     q = np.array([float(x) for x in IN_RADIANS.split()])
     arguments = ["panda", "--at", IN_RADIANS, "--maximise", "relative-manipulability", "--failures", "1; 2; 3"]

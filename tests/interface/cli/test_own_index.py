@@ -119,7 +119,7 @@ def test_a_sweep_of_designs_resumes_until_the_function_changes(file, cli):
 
 def test_the_studio_offers_it(file, monkeypatch, cli):
     from holdfast.interface.studio import server
-    from holdfast.interface.studio.scene.machine import CompiledArm
+    from holdfast.interface.studio.machine import CompiledArm
     from holdfast.model.arm.task import as_task
 
     asked = {}
@@ -131,9 +131,8 @@ def test_the_studio_offers_it(file, monkeypatch, cli):
     monkeypatch.setattr(server, "serve", serve)
     assert cli("studio", "planar-3r", "--index", NAME, "--objective", NAME)[0] == 0
     machine, q = CompiledArm(asked["model"], as_task(asked["model"], "planar")), [0.3, 0.7, -0.5]
-    better, worse = machine.get_objectives(asked["state"].objective)
-    assert better.evaluate(q).value == pytest.approx(least_by_numpy(asked["model"], np.array(q)), rel=1e-9)
-    assert worse.better == "smaller"
+    index = machine.get_index(asked["state"].objective)
+    assert index.evaluate(q).value == pytest.approx(least_by_numpy(asked["model"], np.array(q)), rel=1e-9)
 
 
 def test_what_is_missing_is_named(file, refused):

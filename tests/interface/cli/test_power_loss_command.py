@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "interface" / "report"))
-from wellformed import check
-
 import holdfast as hf
+from wellformed import check
 
 CALL = ["power-loss", "planar-3r", "--q", "10 20 30", "--degrees", "--coulomb", "1.5", "--viscous", "2"]
 Q = np.radians([10.0, 20, 30])

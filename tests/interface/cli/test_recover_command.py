@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "interface" / "report"))
-from wellformed import check
-
 import holdfast as hf
 import oracles
 from holdfast.response.recovery import read_waypoints
+from wellformed import check
 
 CALL = ["recover", "planar-3r", "--lock", "2", "--at", "20 40 60", "--degrees"]
 

@@ -13,9 +13,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "interface" / "report"))
-from wellformed import check
-
 import holdfast as hf
+from wellformed import check
 
 CALL = ["simulate", "planar-2r", "--start", "0 -30", "--degrees", "--lock", "1"]
 

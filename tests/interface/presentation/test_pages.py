@@ -138,7 +138,7 @@ def test_how_a_fall_ended(outcome):
     rest = found.duration if outcome == FallOutcome.REST else np.nan
     numbers = {"code": np.uint8(outcome), "rest_time": rest, "status": np.uint8(Status.OK)}
     if outcome == FallOutcome.UNKNOWN:
-        numbers |= {"drop": np.nan, "error": np.nan, "released": np.nan, "status": np.uint8(Status.NO_INERTIA)}
+        numbers |= {"drop": np.nan, "released": np.nan, "status": np.uint8(Status.NO_INERTIA)}
     presentation = call_presenter(replace(found, **numbers), "present")
     says_something(presentation.answer)
     assert all(not value.startswith("0 ") for value, _ in build_page(presentation).facts)

@@ -4,6 +4,7 @@ import importlib.util
 from pathlib import Path
 
 import pytest
+
 from wellformed import check
 
 DOCS = Path(__file__).parents[3] / "docs"

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from wellformed import check
 
 from holdfast.interface.report import svg
 from holdfast.interface.report.motions import StickMotion, TimePanel, stick_motion_figure
 from holdfast.interface.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 from holdfast.interface.report.views import View
+from wellformed import check
 
 
 def test_bars_say_what_they_are(rng):

@@ -9,7 +9,6 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from wellformed import check
 
 from holdfast.core.errors import StoreError
 from holdfast.core.formatting import (
@@ -50,6 +49,7 @@ from holdfast.interface.report import (
     write,
 )
 from holdfast.interface.report.figures import format_label
+from wellformed import check
 
 NASTY = '<script>alert("x")</script> & $\\frac$'
 

@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 import pytest
-from wellformed import check
 
 from holdfast.interface.report.timelines import Timeline, TimelineLine, draw_small_multiples, draw_stacked_panels
+from wellformed import check
 
 TIME = np.linspace(0, 4, 50)
 

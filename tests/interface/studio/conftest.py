@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from studio_pages import wait_for
 
 import chromium
 from holdfast import arms
@@ -35,37 +34,3 @@ def studio():
     yield make
     for page in open_pages:
         page.stop()
-
-
-# Scenes are drawn by the processor, whether or not anything moves: sixty times a second they keep one busy.
-FEW_FRAMES = """
-const whole = window.requestAnimationFrame.bind(window);
-window.requestAnimationFrame = (draw) => window.setTimeout(() => whole(draw), 250);
-window.cancelAnimationFrame = window.clearTimeout.bind(window);
-"""
-
-
-@pytest.fixture
-def visit(browser):
-    """``visit(studio)``: a page that has opened it, and the window behind that page."""
-    contexts = []
-
-    def go(served, width=640, height=440, **options):
-        before = set(served.windows)
-        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
-        contexts.append(context)
-        context.add_init_script(FEW_FRAMES)
-        page = context.new_page()
-        page.set_default_timeout(60_000)
-        page.hosts = set()
-        page.on("request", lambda r: page.hosts.add(r.url.split("/")[2]) if "://" in r.url and r.url[:4] != "blob" else None)
-        page.on("websocket", lambda w: page.hosts.add(w.url.split("/")[2]))
-        page.goto(served.url)
-        wait_for(page, lambda: set(served.windows) - before)
-        window = served.windows[max(set(served.windows) - before)]
-        assert window.wait_until_done(60)
-        return page, window
-
-    yield go
-    for context in contexts:
-        context.close()

@@ -10,8 +10,8 @@ import pytest
 import holdfast as hf
 from holdfast.interface.studio import State
 from holdfast.interface.studio.compute import find_best_and_worst
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.motions import simulate_law_motions
-from holdfast.interface.studio.scene.machine import CompiledArm
 from holdfast.kinematics.solvers import optima
 from holdfast.model.arm.poses import pose_numbers
 from holdfast.model.arm.task import as_task
@@ -30,7 +30,7 @@ def state(machine, q, **more):
 @pytest.mark.parametrize("objective", ["relative-manipulability", "condition-number"])
 def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objective):
     """A search that found nothing better or worse than the middling."""
-    index = machine.get_objectives(objective)[0]
+    index = machine.get_index(objective)
     sign = 1.0 if index.better == "larger" else -1.0
     draws = np.random.default_rng(5).uniform(-2, 2, (200, 3))
     low, middle, high = draws[np.argsort(sign * np.asarray(index(draws)))[[5, 100, 195]]]
@@ -41,12 +41,12 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
     monkeypatch.setattr(optima, "optimise", found)
     for q, place in ((low, 1), (high, 0)):
         extremes = find_best_and_worst(machine, state(machine, q, objective=objective), lambda *_: None)
-        best, worst, here = extremes.values
+        best, worst, here = extremes["values"]
         assert here == float(index(q))
         assert sign * best >= sign * here >= sign * worst
-        np.testing.assert_array_equal(extremes.q[place], q)
-        assert extremes.values[place] == here
-        np.testing.assert_array_equal(extremes.q[1 - place], middle)
+        np.testing.assert_array_equal(extremes["q"][place], q)
+        assert extremes["values"][place] == here
+        np.testing.assert_array_equal(extremes["q"][1 - place], middle)
 
 
 def test_a_target_where_the_hand_is_is_no_error(machine):
@@ -57,7 +57,7 @@ def test_a_target_where_the_hand_is_is_no_error(machine):
         machine, state(machine, q, target=tuple(at), laws=("pseudoinverse", "damped:0.1")), lambda *_: None
     )
     for motion in motions:
-        np.testing.assert_array_equal(motion.configuration_at(0.0), q)
+        np.testing.assert_array_equal(motion.q[0], q)
 
 
 def test_how_far_the_hand_is_from_its_target_is_seen_by_the_task(machine):

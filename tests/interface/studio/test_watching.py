@@ -1,76 +1,64 @@
-"""A fault that is injected in the studio, and what the monitor makes of it: computed, and in the page."""
+"""A fault that is injected in the studio, and what the monitor makes of it."""
 
 from __future__ import annotations
 
-import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from studio_pages import wait_for
 
-import axe
+import holdfast as hf
 from holdfast.core.errors import InputError
-from holdfast.interface.studio import State
-from holdfast.interface.studio.monitor_demo import MonitorDemo, monitor_html, simulate_monitor_demo
-from holdfast.interface.studio.motions import PlayedMotion
+from holdfast.interface.studio import State, monitor_demo
+from holdfast.interface.studio.machine import CompiledArm
+from holdfast.interface.studio.monitor_demo import simulate_monitor_demo
+from holdfast.model.arm.poses import pose_numbers
+from holdfast.model.arm.task import as_task
+from holdfast.response.diagnosis.decision import CLASSIFICATION_TIME_S, ISOLATION_TIME_S
 
 pytest.importorskip("mujoco")
 NAMES = ("a", "b")
 
 
-def some(**more):
-    """A lock of b at 1 s that is noticed at 1.2 s and named at 1.22 s, of 4 s."""
-    time = np.linspace(0, 4, 81)
-    values = np.stack((0.3 + 0 * time, np.where(time < 1, 0.2, 9.0)), axis=1)
-    values[7, 0] = np.nan
-    given = {
-        "onset": 1.0,
-        "alarm_time": 1.2,
-        "joint": 1,
-        "isolation_time": 1.22,
-        "kind": "locked",
-        "classification_time": 1.32,
-        "findings": ("b is <locked>",),
-        "inconclusive": ("a did not",),
-    }
-    return MonitorDemo(
-        motion=PlayedMotion("m", time, "s", values), time=time, residuals={"torque residual": values}, **{**given, **more}
+def sentences(onset=1.0, end=4.0, inconclusive=(), **more):
+    """Sentences about a lock of b at 1 s that is detected at 1.2 s."""
+    verdict = {"alarm": True, "time": 1.2, "joint": "b", "kind": "locked", "candidates": ("b",), "evidence": ("it stands.",)}
+    diagnosis = SimpleNamespace(
+        verdict=SimpleNamespace(**(verdict | more)),
+        inconclusive=inconclusive,
+        arm=SimpleNamespace(joint_names=NAMES),
+        describe=lambda: ["alarm at 1.2 s: b is <locked>."],
     )
+    isolation_time = 1.2 + ISOLATION_TIME_S
+    return monitor_demo._write_sentences(diagnosis, onset, isolation_time, end)
 
 
 def test_what_is_known_comes_with_time():
-    before, noticed, known, end = (monitor_html(some(), NAMES, t) for t in (0.9, 1.21, 1.5, 4.0))
-    assert "above it: none" in before
-    assert "hf-named" not in noticed
-    assert "b is &lt;locked&gt;" in known
-    assert known.count("hf-named") == 1
-    assert "a did not" not in known
-    assert "a did not" in end
-    points = [re.findall(r'points="([^"]*)"', text)[0].split() for text in (before, end)]
-    assert len(points[0]) < len(points[1]) == 80  # one is not a number
+    known_from = 1.2 + ISOLATION_TIME_S + CLASSIFICATION_TIME_S
+    assert sentences() == [
+        (1.2, "Alarm 200 ms after the fault."),
+        (1.2 + ISOLATION_TIME_S, "The monitor isolates b."),
+        (pytest.approx(known_from), "b is <locked>."),
+        (pytest.approx(known_from), "It stands."),
+    ]
 
 
 @pytest.mark.parametrize(
-    ("changes", "current", "sentence"),
+    ("changes", "number", "sentence"),
     [
-        ({}, 1.19, "No alarm so far."),
-        ({}, 1.21, "Alarm 200 ms after the fault; joint: not identified."),
-        ({}, 1.27, "Alarm 200 ms after the fault; joint: b."),
-        ({}, 4.0, "Alarm 200 ms after the fault; joint: b, locked."),
-        ({"kind": "unknown"}, 4.0, "Alarm 200 ms after the fault; joint: b."),
-        (
-            {"joint": None, "isolation_time": np.inf, "kind": "contact"},
-            4.0,
-            "Alarm 200 ms after the fault; joint: not identified.",
-        ),
-        ({"onset": 2.0}, 1.21, "Alarm at 1.200 s, before any fault; joint: not identified."),
-        ({"onset": np.inf}, 1.21, "Alarm at 1.200 s, before any fault; joint: not identified."),
+        ({"onset": 2.0}, 0, (1.2, "Alarm at 1.200 s, before any fault.")),
+        ({"onset": np.inf}, 0, (1.2, "Alarm at 1.200 s, before any fault.")),
+        ({"alarm": False}, 0, (4.0, "No fault was detected, which does not prove that there is none.")),
+        ({"candidates": ("a", "b")}, -1, (4.0, "Not distinguished: a, b.")),
+        ({"inconclusive": ("a",)}, -1, (4.0, "Did not move enough for a diagnosis: a.")),
     ],
 )
-def test_the_sentence_about_the_alarm_follows_the_time(changes, current, sentence):
-    html = monitor_html(some(**changes), NAMES, current)
-    assert sentence in html
-    assert ("data-alarm" in html) == (sentence != "No alarm so far.")
+def test_the_sentences_follow_the_verdict(changes, number, sentence):
+    assert sentences(**changes)[number] == sentence
+
+
+def test_no_joint_is_isolated_where_the_monitor_names_none():
+    assert not any("isolates" in text for _, text in sentences(joint=None))
 
 
 def test_there_must_be_a_target():
@@ -78,28 +66,40 @@ def test_there_must_be_a_target():
         simulate_monitor_demo(None, State("x", NAMES, (0.0, 0.0)), lambda *_: None)
 
 
-def test_a_fault_in_the_page_is_named(studio, visit):
-    page, window = visit(studio("panda", task="position"))
-    page.get_by_role("tab", name="Watch").click()
-    button = page.get_by_role("button", name="Move, fail and watch")
-    wait_for(page, button.is_enabled)
-    button.click()
-    wait_for(page, lambda: window.monitor_demo is not None)
-    window.request_action("time", 8.0)
-    wait_for(page, lambda: page.locator(".hf-watch[data-alarm]").count() == 1)
-    wait_for(page, lambda: "panda_joint4 is locked" in page.locator(".hf-watch").inner_text())
-    by_page, by_python = page.locator(".hf-head").inner_text(), window.monitor_demo
-    late = 1000 * (by_python.alarm_time - by_python.onset)
-    assert by_page == f"Alarm {late:.0f} ms after the fault; joint: {window.state.names[by_python.joint]}, locked."
-    assert "above it: panda_joint4" in page.locator(".hf-watch svg").first.get_attribute("aria-label")
-    assert axe.serious(page) == []
-    window.request_action("fault", ("limp", "panda_joint2", 2.0))
-    window.request_action("time", 0.5)
-    wait_for(page, lambda: page.locator(".hf-head").inner_text() == "No alarm so far.")
-    page.get_by_role("button", name="Inject the fault now").click()
-    wait_for(page, lambda: window.monitor_demo is not by_python)
-    assert window.monitor_demo.onset == pytest.approx(0.5, abs=0.01)
-    wait_for(page, lambda: "joint: panda_joint2" in page.locator(".hf-head").inner_text())
-    page.get_by_role("button", name="Clear").first.click()
-    wait_for(page, lambda: page.locator(".hf-watch").count() == 0)
-    assert "--show" not in window.state.to_command()
+@pytest.fixture(scope="module")
+def machine():
+    arm = hf.arms.load("panda")
+    return CompiledArm(arm, as_task(arm, "position"))
+
+
+@pytest.mark.parametrize(("kind", "joint", "onset"), [("locked", 3, 1.0), ("limp", 1, 0.5), ("none", 0, 1.0)])
+def test_a_fault_is_detected_and_isolated(machine, kind, joint, onset):
+    names = machine.arm.joint_names
+    q = np.array(hf.arms.about("panda").home)
+    target = pose_numbers(machine.tool_pose(machine.nearby_configuration(q)))
+    state = State("panda", names, tuple(q), task="position", target=target, fault=(kind, names[joint], onset))
+    steps = []
+    watch = simulate_monitor_demo(machine, state, lambda *step: steps.append(step))
+    assert steps[-1] == (monitor_demo.HEALTHY_MOTIONS, monitor_demo.HEALTHY_MOTIONS + 1)
+    time, torque = np.array(watch["time"]), np.array(watch["signals"][0]["values"], dtype=float)
+    assert torque.shape == (len(time), 7)
+    texts = [sentence["text"] for sentence in watch["sentences"]]
+    if kind == "none":
+        assert (watch["onset"], watch["alarm"], watch["isolated"]) == (None, None, None)
+        assert texts[0].startswith("No fault was detected")
+        assert np.nanmax(torque) < 1
+        return
+    assert watch["onset"] == onset <= watch["alarm"]
+    assert watch["isolated"]["joint"] == joint
+    assert texts[:2] == [
+        f"Alarm {1000 * (watch['alarm'] - onset):.0f} ms after the fault.",
+        f"The monitor isolates {names[joint]}.",
+    ]
+    assert any(names[joint] in text for text in texts[2:])
+    ratios = np.concatenate([np.array(signal["values"], dtype=float) for signal in watch["signals"]], axis=1)
+    assert np.nanmax(ratios[time < onset - 0.05]) < 1 < np.nanmax(ratios[time > watch["alarm"] - 0.05])
+    moved, path = np.array(watch["motion"]["time"]), np.array(watch["motion"]["q"])
+    after = path[moved > onset + 0.1, joint]
+    if kind == "locked":
+        np.testing.assert_allclose(after, after[0], atol=2e-3)
+    np.testing.assert_allclose(path[0], q, atol=1e-6)

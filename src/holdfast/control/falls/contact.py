@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
@@ -21,6 +21,7 @@ CHECK_SPACING_S = 0.01  # simulated time between two computations of the distanc
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
+MOST_WAITING_SPANS = 1 << 12  # between two checks, after which contacts are located in all of them together
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,29 +65,21 @@ class FallContacts:
 
 @dataclass(frozen=True, kw_only=True)
 class _Instant:
-    """One instant of each of R falls: its time (R,), q and rates (R, n), and the distances (R, P) of pairs, or (R,) of one."""
+    """One instant of each of R falls: its time (R,), s, and q and rates (R, n)."""
 
     time: FloatArray
     q: FloatArray
     rates: FloatArray
-    distances: FloatArray
-
-    def select(self, rows: IndexArray | BoolArray) -> _Instant:
-        """Return some of the falls."""
-        return _Instant(**{name: value[rows] for name, value in vars(self).items()})
-
-    def join(self, other: _Instant) -> _Instant:
-        """Return these instants and, after them, those of the other one."""
-        return _Instant(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
 
 
 class ContactSearch:
     """Falls of one arm up to their first contacts.
 
-    The distances are computed every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
+    Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
     at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
     2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the span is halved,
-    until L is below half a millimetre. Only a contact that is less than a quarter of a millimetre deep may be missed.
+    until L is below half a millimetre. The distances at an instant are only computed where ``d_1 - L`` is below 0, with the
+    last computed d_1 and the L of all spans since. Only a contact less than a quarter of a millimetre deep may be missed.
 
     Args:
         simulator: Simulator of the falls.
@@ -104,7 +97,8 @@ class ContactSearch:
         reached = np.concatenate([limits, starts])
         self.change_bounds = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel)
         own, objects = np.split(self.change_bounds, [len(clearance.pairs)])
-        self.nearest_change_bounds = np.concatenate([own, objects.max(axis=0, keepdims=True)]) if len(objects) else own
+        by_link = objects if clearance.obstacles is None else objects[:: len(clearance.obstacles.cell)]
+        self.nearest_change_bounds = np.ascontiguousarray(np.concatenate([own, by_link]).T)
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
@@ -118,20 +112,40 @@ class ContactSearch:
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
         done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
         calls = max(1, int(CHECK_SPACING_S / (stepper.steps_per_call * step.max(initial=1e-9))))
-        before, ignored = self._measure_nearest(np.zeros(len(q)), q, rates), self.clearance.by_pair(q) < 0
-        for _ in range(most_calls // calls + 1):
-            result = stepper.loop.run(states[rows], parameters[rows], 0.5, calls)
-            parts = stepper.layout.view_parts(result.state)
-            after = self._measure_nearest(parts["time"][:, 0], parts["q"], parts["rates"])
-            possible, _ = _find_possible_contacts(before, after, self.nearest_change_bounds)
-            doubtful = np.union1d(possible, np.flatnonzero(ignored.any(axis=1)))
-            start, end = (self._measure_pairs(part.select(doubtful)) for part in (before, after))
-            time[rows[doubtful]], pair[rows[doubtful]] = self._locate_contacts(start, end, ignored[doubtful])
-            ignored[doubtful] &= end.distances < REQUIRED_GAP_M
-            is_clear = pair[rows] < 0  # all others keep the state before their contact
-            states[rows[is_clear]], done[rows] = result.state[is_clear], result.done
-            remaining = np.flatnonzero(is_clear & ~result.done)
-            rows, before, ignored = rows[remaining], after.select(remaining), ignored[remaining]
+        distances, ignored = self._measure_nearest(q), self.clearance.by_pair(q) < 0
+        # Spans of falls in which a contact is possible.
+        spans: list[tuple[IndexArray, FloatArray, FloatArray, BoolArray]] = []
+        span_count = 0
+        for remaining_checks in reversed(range(most_calls // calls + 1)):
+            before = states[rows]
+            result = stepper.loop.run(before, parameters[rows], 0.5, calls)
+            after, has_ignored = self._view_instants(result.state), np.any(ignored, axis=1)
+            travel = _bound_travel(self._view_instants(before), after)
+            distances -= np.einsum("rj,jk->rk", travel, self.nearest_change_bounds)  # small, so threads of @ would only wait
+            # The distances are computed only where these lower bounds do not exclude a contact.
+            doubtful = np.flatnonzero(np.any(distances < 0, axis=1) | has_ignored)
+            measured, is_running = self._measure_nearest(after.q[doubtful]), ~result.done
+            is_touching = np.any(measured < 0, axis=1)
+            possible = doubtful[is_touching | has_ignored[doubtful] | (distances[doubtful] + measured < 0).any(axis=1)]
+            if possible.size:
+                span_count += possible.size
+                spans.append((rows[possible], before[possible], result.state[possible], ignored[possible]))
+            distances[doubtful] = measured
+            is_running[doubtful[is_touching & ~has_ignored[doubtful]]] = False
+            if has_ignored.any():
+                by_pair = self.clearance.by_pair(after.q[has_ignored])
+                is_running[has_ignored] &= ((by_pair >= 0) | ignored[has_ignored]).all(axis=1)
+                ignored[has_ignored] &= by_pair < REQUIRED_GAP_M
+            states[rows], done[rows] = result.state, result.done
+            rows, distances, ignored = rows[is_running], distances[is_running], ignored[is_running]
+            if spans and not (rows.size and remaining_checks and span_count <= MOST_WAITING_SPANS):
+                falls, starts, ends, were_ignored = map(np.concatenate, zip(*spans, strict=True))
+                contact_times, pairs = self._locate_contacts(starts, ends, were_ignored)
+                order = np.argsort(-contact_times)  # the earliest contact of a fall is assigned last
+                order = order[pairs[order] >= 0]
+                time[falls[order]], pair[falls[order]], states[falls[order]] = contact_times[order], pairs[order], starts[order]
+                spans, span_count, is_clear = [], 0, np.flatnonzero(pair[rows] < 0)
+                rows, distances, ignored = rows[is_clear], distances[is_clear], ignored[is_clear]
             if not rows.size:
                 break
         touching = np.flatnonzero(pair >= 0)
@@ -143,47 +157,64 @@ class ContactSearch:
         states[touching], done[touching] = result.state, result.done
         return self.simulator.read_states(q, states, done, pair)
 
-    def _measure_pairs(self, instant: _Instant) -> _Instant:
-        return replace(instant, distances=self.clearance.by_pair(instant.q))
+    def _view_instants(self, states: FloatArray) -> _Instant:
+        """Return the instants of states of the loop."""
+        parts = self.simulator.stepper.layout.view_parts(states)
+        return _Instant(time=parts["time"][:, 0], q=parts["q"], rates=parts["rates"])
 
-    def _measure_nearest(self, time: FloatArray, q: FloatArray, rates: FloatArray) -> _Instant:
-        """Return instants with the distances of all pairs of links, and of the nearest object, which are fast to compute."""
+    def _measure_nearest(self, q: FloatArray) -> FloatArray:
+        """Return the distances (R, K) of all pairs of links, and of each link from its nearest object."""
         distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
-        if obstacles is not None:
-            distances = np.column_stack([distances, obstacles.smallest_distance(q)])
-        return _Instant(time=time, q=q, rates=rates, distances=distances)
+        return distances if obstacles is None else np.hstack([distances, obstacles.smallest_by_link(q)])
 
-    def _locate_contacts(self, start: _Instant, end: _Instant, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
-        """Return the times (R,) and the pairs (R,) of the first contacts between two instants; infinite and -1 for none.
+    def _locate_contacts(self, starts: FloatArray, ends: FloatArray, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
+        """Return the times (R,) and the pairs (R,) of the first contacts between states; infinite and -1 for none.
 
         A span of time in which a contact of a pair is possible is split until it is excluded or located.
         """
-        time, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
-        latest = time.copy()  # times at which a contact has begun
-        falls, pairs = _find_possible_contacts(start, end, self.change_bounds, ignored)
-        before, after = (replace(part.select(falls), distances=part.distances[falls, pairs]) for part in (start, end))
-        start, end = (replace(part, distances=part.time) for part in (start, end))  # only their motion is needed from here on
+        start, end = self._view_instants(starts), self._view_instants(ends)
+        duration, first, last = end.time - start.time, self.clearance.by_pair(start.q), self.clearance.by_pair(end.q)
+        falls, pairs = _find_possible_contacts(_bound_travel(start, end), first, last, self.change_bounds, ignored)
+        polynomials = _interpolate(start, end)  # of the fraction of the duration
+        derivatives = polynomials[:, 1:] * np.array([[1.0], [2.0], [3.0]])
+        # A quadratic polynomial on (0, 1) is between the least and the largest of its Bernstein coefficients.
+        bernstein = np.stack([derivatives[:, 0], derivatives[:, 0] + derivatives[:, 1] / 2, derivatives.sum(axis=1)])
+        rates = np.einsum("rj,rj->r", np.abs(bernstein).max(axis=0)[falls], self.change_bounds[pairs])
+        spans = np.array([np.zeros(falls.size), np.ones(falls.size), first[falls, pairs], last[falls, pairs], rates])
+        fraction, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
+        latest = fraction.copy()  # fractions at which a contact has begun
         while falls.size:
-            change = np.sum(_bound_travel(before, after) * self.change_bounds[pairs], axis=1)
-            duration, touching = after.time - before.time, after.distances < 0
-            np.minimum.at(latest, falls[touching], after.time[touching])
-            is_possible = touching | (before.distances + after.distances < change)
-            is_coarse = is_possible & np.where(touching, duration > TIME_RESOLUTION_S, change >= MIN_DISTANCE_CHANGE_M)
+            before, after, first_distance, last_distance, rates = spans
+            width, touching = after - before, last_distance < 0
+            np.minimum.at(latest, falls[touching], after[touching])
+            is_possible = touching | (first_distance + last_distance < rates * width)
+            is_fine = np.where(touching, width * duration[falls] <= TIME_RESOLUTION_S, rates * width < MIN_DISTANCE_CHANGE_M)
             # A span that begins in contact has its contact at its beginning.
-            approach = np.maximum(before.distances - after.distances, 1e-300)
-            fraction = np.where(touching & (before.distances > 0), before.distances / approach, 0.0)
-            instants = np.where(touching & ~is_coarse, before.time + fraction * duration, np.inf)
+            approach = np.maximum(first_distance - last_distance, 1e-300)
+            instants = before + np.where(first_distance > 0, first_distance / approach, 0.0) * width
+            instants[~(touching & is_fine)] = np.inf
             order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
-            order = order[instants[order] < time[falls[order]]]
-            time[falls[order]], pair[falls[order]] = instants[order], pairs[order]
-            split = is_coarse & (before.time < latest[falls])
-            falls, pairs, before, after = falls[split], pairs[split], before.select(split), after.select(split)
-            middle_time = (before.time + after.time) / 2
-            middle = self._measure_pairs(_interpolate(start.select(falls), end.select(falls), middle_time))
-            middle = replace(middle, distances=middle.distances[np.arange(falls.size), pairs])
-            before, after = before.join(middle), middle.join(after)
-            falls, pairs = np.tile(falls, 2), np.tile(pairs, 2)
-        return time, pair
+            order = order[instants[order] < fraction[falls[order]]]
+            fraction[falls[order]], pair[falls[order]] = instants[order], pairs[order]
+            split = is_possible & ~is_fine & (before < latest[falls])
+            falls, pairs, (before, after, first_distance, last_distance, rates) = falls[split], pairs[split], spans[:, split]
+            middle, chosen = (before + after) / 2, polynomials[falls]
+            q, s = chosen[:, 3], middle[:, None]
+            for power in (2, 1, 0):
+                q = chosen[:, power] + s * q
+            distance = self._measure_pairs(q, pairs)
+            halves = [before, middle, first_distance, distance, rates], [middle, after, distance, last_distance, rates]
+            falls, pairs, spans = np.tile(falls, 2), np.tile(pairs, 2), np.concatenate(halves, axis=1)
+        return start.time + fraction * duration, pair
+
+    def _measure_pairs(self, q: FloatArray, pairs: IndexArray) -> FloatArray:
+        """Return the distance (R,) of one pair at each configuration (R, n)."""
+        distances, own_count, obstacles = np.empty(len(q)), len(self.clearance.pairs), self.clearance.obstacles
+        own, other = np.flatnonzero(pairs < own_count), np.flatnonzero(pairs >= own_count)
+        distances[own] = self.clearance.self_only.by_pair(q[own])[np.arange(own.size), pairs[own]]
+        if obstacles is not None:
+            distances[other] = obstacles.distances_of_pairs(q[other], pairs[other] - own_count)
+        return distances
 
 
 def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
@@ -194,26 +225,23 @@ def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
 
 
 def _find_possible_contacts(
-    before: _Instant, after: _Instant, change_bounds: FloatArray, ignored: BoolArray | bool = False
+    travel: FloatArray, before: FloatArray, after: FloatArray, change_bounds: FloatArray, ignored: BoolArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Return the falls and the pairs of which the distance may reach 0 between two instants."""
-    travel, sums, touching = _bound_travel(before, after), before.distances + after.distances, after.distances < 0
+    """Return the falls and the pairs of which the distance, ``before`` and ``after`` (R, P), may reach 0 in between."""
     # Most pairs are excluded by the largest bound of all pairs.
     largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
-    falls, pairs = np.nonzero(((sums < largest_change[:, None]) | touching) & np.logical_not(ignored))
-    change = np.sum(travel[falls] * change_bounds[pairs], axis=1)
-    is_possible = (sums[falls, pairs] < change) | touching[falls, pairs]
+    falls, pairs = np.nonzero(((before + after < largest_change[:, None]) | (after < 0)) & ~ignored)
+    change = np.einsum("rj,rj->r", travel[falls], change_bounds[pairs])
+    last = after[falls, pairs]
+    is_possible = (before[falls, pairs] + last < change) | (last < 0)
     return falls[is_possible], pairs[is_possible]
 
 
-def _interpolate(start: _Instant, end: _Instant, time: FloatArray) -> _Instant:
-    """Return instants on the cubic polynomials between two others, with the distances of the first."""
+def _interpolate(start: _Instant, end: _Instant) -> FloatArray:
+    """Return the coefficients (R, 4, n) of the cubic polynomials between two instants, from the constant one on."""
     duration = (end.time - start.time)[:, None]
-    s = (time - start.time)[:, None] / duration
     chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
-    second, third = 3 * chord - 2 * first - last, first + last - 2 * chord
-    q = start.q + s * (first + s * (second + s * third))
-    return replace(start, time=time, q=q, rates=(first + s * (2 * second + 3 * s * third)) / duration)
+    return np.stack([start.q, first, 3 * chord - 2 * first - last, first + last - 2 * chord], axis=1)
 
 
 def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:

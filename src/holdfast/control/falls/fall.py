@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import FallContacts
 from holdfast.control.falls.simulator import FallSimulator, FallStates
+from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum, require_ok
@@ -69,8 +70,6 @@ class PowerLoss(Result):
         rest_time: (N,) time from which on all joints are at rest, s; NaN if a joint still moves.
         code: (N,) :class:`holdfast.control.falls.FallOutcome` of each fall.
         status: (N,) :class:`holdfast.Status` of each fall.
-        error: (N,) estimated error of the tool point at the end, m. This is twice the distance between the results of two
-            simulations at the same time, of which one has steps twice as long and does not end at a contact.
         residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N; 0 if none
             does.
         contacts: First contacts; None if they were not searched for.
@@ -94,7 +93,6 @@ class PowerLoss(Result):
     rest_time: FloatArray
     code: NDArray[np.uint8]
     status: NDArray[np.uint8]
-    error: FloatArray
     residual: FloatArray
     contacts: FallContacts | None
     clearance: Clearance | None
@@ -112,6 +110,17 @@ class PowerLoss(Result):
     def cell(self) -> Cell | None:
         """Objects with which contacts were searched for."""
         return None if self.clearance is None else self.clearance.cell
+
+    @cached_property
+    def error(self) -> FloatArray:
+        """(N,) estimated error of the tool point at the end, m.
+
+        This is twice the distance from the result of a second simulation to the same time, whose steps are twice as long. It
+        runs when the error is first read.
+        """
+        tool = self._evaluate_at(self.duration, lambda states: states.tool, step_ratio=2.0)
+        final = self._simulator.tool_points(np.atleast_2d(self.q_final)).reshape(tool.shape)
+        return np.asarray(2 * np.linalg.norm(final - tool, axis=-1))
 
     def q_at(self, time: ArrayLike) -> FloatArray:
         """Return the configurations (N, n), rad and m, at a time since the power loss, s; (N, T, n) for times (T,)."""
@@ -212,8 +221,8 @@ class PowerLoss(Result):
         require_ok(self.status, "power loss")
         return self
 
-    def _evaluate_at(self, time: ArrayLike, select: Callable[[FallStates], FloatArray]) -> FloatArray:
-        """Simulate all falls again up to each time, so that the steps before it are those of the whole fall."""
+    def _evaluate_at(self, time: ArrayLike, select: Callable[[FallStates], FloatArray], step_ratio: float = 1.0) -> FloatArray:
+        """Simulate all falls again up to each time, so that the steps before it are those of the whole fall, times a ratio."""
         times = require_real_numbers(time, "time")
         if times.ndim > 1 or not ((times >= 0) & (times <= self.duration)).all():
             raise InputError(f"time is {time!r}; give one time or a list of times from 0 to the duration, {self.duration:g} s")
@@ -226,7 +235,7 @@ class PowerLoss(Result):
             np.repeat(q[rows], repeat, axis=0),
             np.repeat(rates[rows], repeat, axis=0),
             all_times.ravel(),
-            np.repeat(np.atleast_1d(self.step)[rows], repeat),
+            np.repeat(step_ratio * np.atleast_1d(self.step)[rows], repeat),
         )
         selected = select(states)
         values = np.full((len(q), repeat, selected.shape[1]), np.nan)

@@ -53,8 +53,8 @@ def power_loss(
     From time 0 on the joints in ``free`` transmit only friction. All other joints are held exactly. With dry friction or stops
     the steps have order 2 and contain stiction, impacts on the stops, and brakes; otherwise they have order 4. With a cell or a
     clearance, a fall ends at the first contact of the arm with an object or with itself. Spheres and capsules enclose the
-    links, so contacts come early rather than late. Each fall is simulated twice, the second time with twice the step, for its
-    ``error``. A frictionless arm without stops is chaotic: after about a second its error may be as large as the arm.
+    links, so contacts come early rather than late. A frictionless arm without stops is chaotic: after about a second its
+    ``error`` may be as large as the arm.
 
     Args:
         arm: The arm, with inertial data for every link.
@@ -118,7 +118,6 @@ def power_loss(
         runner = ContactSearch(simulator, model, starts[rows], duration)
     states, errors, steps[rows] = _simulate(simulator, runner, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
     fields = _collect_fields(simulator, starts[rows], start_rates[rows], states)
-    fields["error"] = errors
     fields["status"] = np.where(states.is_finished, Status.OK, Status.INACCURATE).astype(np.uint8)
     if accuracy is not None:
         fields["status"][~(errors <= accuracy)] = Status.INACCURATE
@@ -159,12 +158,14 @@ def _simulate(
     step: FloatArray,
     accuracy: float | None,
 ) -> tuple[FallStates, FloatArray, FloatArray]:
-    """Return the states at the end, the estimated errors (N,) of the tool points there, m, and the steps (N,), s."""
+    """Return the states at the end, the errors (N,) that decide over the steps, m, and the steps (N,), s."""
     until = np.full(len(q), float(duration))
     states = runner.run(q, rates, until, step)
+    if accuracy is None:
+        return states, np.zeros(len(q)), step
     coarse_tool = simulator.run(q, rates, np.where(states.pair < 0, until, states.time), 2 * step).tool
     errors = 2 * np.linalg.norm(states.tool - coarse_tool, axis=1)
-    for _ in range(0 if accuracy is None else MOST_HALVINGS):
+    for _ in range(MOST_HALVINGS):
         rows = np.flatnonzero(~(errors <= accuracy))
         if not rows.size:
             break

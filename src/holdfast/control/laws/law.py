@@ -144,7 +144,7 @@ class Law(Presentable, Labelled, Differentiable, Steppable):
     def write_rates_in_javascript(self, name: str, q: SX, v: SX, inputs: Sequence[SX], *, with_functions: bool = True) -> str:
         """Return :meth:`rates` for ``q``, ``v`` as JavaScript: ``const NAME = (x, y) => ...``.
 
-        The text is as :func:`holdfast.kernels.javascript_backend.write_javascript` writes it.
+        The text is as ``holdfast.kernels.javascript_backend.write_javascript`` writes it.
 
         Args:
             name: Name of the constant.

@@ -97,7 +97,7 @@ class ViewerScene:
 
 def to_script_json(data: Any) -> str:
     """Encode data as JSON that cannot end the surrounding script element."""
-    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/").replace("<!--", "\\u003c!--")
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Interactive 3-D page that shows the effect of a failure before it happens, for any arm (needs ``holdfast-arms[view]``).
+"""Interactive page that shows the effect of a failure before it happens, for any arm, with a local server.
 
 :func:`serve` opens it on this machine; ``holdfast studio ARM`` does the same from the command line.
 """

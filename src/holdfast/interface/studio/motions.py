@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
-from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.kinematics.paths.joint_table import joint_columns, read_joint_table
 from holdfast.model.arm.friction import Friction
@@ -38,13 +39,9 @@ class PlayedMotion:
     unit: str
     q: FloatArray
 
-    def configuration_at(self, time: float) -> FloatArray:
-        """Return the configuration (n,) at a time by linear interpolation, and the first or last one outside the motion."""
-        segment = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
-        if len(self.time) == 1 or self.time[segment + 1] <= self.time[segment]:
-            return np.array(self.q[segment])
-        fraction = float(np.clip((time - self.time[segment]) / (self.time[segment + 1] - self.time[segment]), 0.0, 1.0))
-        return np.asarray((1 - fraction) * self.q[segment] + fraction * self.q[segment + 1])
+    def to_plain(self) -> dict[str, Any]:
+        """Return the motion as plain data for JSON."""
+        return {"label": self.label, "unit": self.unit, "time": self.time.tolist(), "q": self.q.tolist()}
 
 
 def read_motion(arm: Arm, path: str | Path) -> PlayedMotion:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.view import choose_views
@@ -24,19 +22,8 @@ from holdfast.interface.report.figures import (
     svg,
 )
 from holdfast.interface.report.motions import draw_chain, show_view
-from holdfast.interface.studio.scene.machine import CompiledArm
+from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
-
-
-def encode_png(picture: NDArray[np.uint8]) -> bytes:
-    """Encode a rendered picture (H, W, 4) as a PNG on white, because the scene has no background."""
-    import imageio.v3 as images
-
-    alpha = picture[..., 3:].astype(np.float64) / 255
-    on_white = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
-    buffer = io.BytesIO()
-    images.imwrite(buffer, on_white, extension=".png")
-    return buffer.getvalue()
 
 
 def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[FloatArray] = ()) -> str:

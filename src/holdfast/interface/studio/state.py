@@ -1,9 +1,10 @@
-"""State of a studio window as one value that can be written as a command line."""
+"""State of a page of the studio as one value that can be written as a command line."""
 
 from __future__ import annotations
 
+import math
 import shlex
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
 from holdfast.core.errors import InputError
@@ -80,8 +81,13 @@ class State:
             )
         if self.show not in DISPLAY_MODES:
             raise InputError(f"show is '{self.show}'; use one of {', '.join(DISPLAY_MODES)}")
-        if self.target is not None and len(self.target) != 7:
-            raise InputError(f"target has {len(self.target)} numbers; it needs x,y,z in m and the quaternion x,y,z,w")
+        poses = [*(() if self.target is None else [("target", self.target)]), *self.moved]
+        for name, numbers in poses:
+            if len(numbers) != 7 or not any(numbers[3:]):
+                raise InputError(f"{name} has the numbers {numbers}; give x,y,z in m and a quaternion x,y,z,w other than 0")
+        others = [self.time, self.fault[2], self.friction or 0.0, *(value for _, value in self.hold)]
+        if not all(map(math.isfinite, [*self.q, *others, *(number for _, numbers in poses for number in numbers)])):
+            raise InputError("a number of the view is infinite or not a number; give finite ones")
         object.__setattr__(self, "conditions", tuple(conditions))
         kind, joint, onset = self.fault
         object.__setattr__(self, "fault", (kind, joint or self.names[n // 2], onset))
@@ -100,10 +106,6 @@ class State:
     def powerless(self) -> tuple[int, ...]:
         """Indices from 0 of the joints that fall in a power loss: the free ones, or all that are not locked if none is free."""
         return self.free or tuple(k for k, condition in enumerate(self.conditions) if condition != "locked")
-
-    def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
-        """Return the same view with the object ``name`` of the cell at ``numbers``: x, y, z (m) and quaternion x, y, z, w."""
-        return replace(self, moved=(*(entry for entry in self.moved if entry[0] != name), (name, numbers)))
 
     def arguments(self) -> list[str]:
         """Return the arguments of ``holdfast`` that restore this state: q and the differences from the defaults."""

@@ -12,12 +12,12 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import IO, Any
 
 from holdfast.core.errors import HoldfastError
 from holdfast.interface.studio.state import State
-from holdfast.interface.studio.work import Cancelled
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 from holdfast.model.cell.cell import Cell
@@ -25,6 +25,11 @@ from holdfast.model.cell.cell import Cell
 Progress = Callable[[int, int], None]
 CANCEL_TIMEOUT_S = 2.0  # time that a cancelled request has before its process is killed, s
 _POLL_INTERVAL_S = 0.02  # interval of calls of ``check``, s
+_END_TEXT = "the computation ended unexpectedly; request it again"
+
+
+class Cancelled(Exception):
+    """Raised inside a job whose answer nobody awaits any more."""
 
 
 class WorkerProcess:
@@ -35,10 +40,9 @@ class WorkerProcess:
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._request_lock = threading.Lock()
-        self._request_number = 0
 
     def run(self, job_name: str, state: State, check: Callable[[], None], progress: Progress) -> Any:
-        """Run a job of :mod:`holdfast.interface.studio.compute` for a state.
+        """Run a job of :mod:`holdfast.interface.studio.compute` for a state, after the jobs of other pages.
 
         Args:
             job_name: Name of the job.
@@ -54,14 +58,22 @@ class WorkerProcess:
             check()
         try:
             check()
-            self._ensure_started()
-            self._request_number += 1
-            self._send_message((self._request_number, job_name, state))
-            return self._await_answer(check, progress)
-        except BaseException as error:
-            if not isinstance(error, (HoldfastError, Cancelled)):
-                self.stop()
-            raise
+            if self._process is None or self._process.poll() is not None:
+                self._start()
+            self._send_message((job_name, state))
+            while True:
+                with suppress(queue.Empty):
+                    kind, value = self._answers.get(timeout=_POLL_INTERVAL_S)
+                    if kind == "done":
+                        return value
+                    if kind == "error":
+                        raise value
+                    progress(*value)
+                try:
+                    check()
+                except BaseException:
+                    self._cancel_job()
+                    raise
         finally:
             self._request_lock.release()
 
@@ -73,21 +85,17 @@ class WorkerProcess:
             process.wait()
             for pipe in (process.stdin, process.stdout):
                 if pipe is not None:
-                    try:
+                    with suppress(OSError):  # unsent data cannot be sent
                         pipe.close()
-                    except OSError:
-                        continue  # the pipe is closed, so unsent data cannot be sent
 
-    def _ensure_started(self) -> None:
-        if self._process is not None and self._process.poll() is None:
-            return
+    def _start(self) -> None:
         self.stop()
         environment = os.environ | {"PYTHONPATH": os.pathsep.join(entry for entry in sys.path if entry)}
         command = [sys.executable, "-c", "from holdfast.interface.studio.worker_process import main; main()"]
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
-        answers: queue.Queue[tuple[str, Any]] = queue.Queue()
-        self._process, self._answers = process, answers
-        threading.Thread(target=_collect_answers, args=(process.stdout, answers), daemon=True, name="studio answers").start()
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
+        self._answers = queue.Queue()
+        arguments = self._process.stdout, self._answers
+        threading.Thread(target=_collect_answers, args=arguments, daemon=True, name="studio answers").start()
         self._send_message(self._inputs)
 
     def _send_message(self, message: Any) -> None:
@@ -97,43 +105,23 @@ class WorkerProcess:
             pickle.dump(message, self._process.stdin)
             self._process.stdin.flush()
         except (OSError, ValueError) as error:
-            raise HoldfastError("the computation ended unexpectedly; request it again") from error
-
-    def _await_answer(self, check: Callable[[], None], progress: Progress) -> Any:
-        while True:
-            try:
-                check()
-            except BaseException:
-                self._cancel_job()
-                raise
-            try:
-                kind, value = self._answers.get(timeout=_POLL_INTERVAL_S)
-            except queue.Empty:
-                continue
-            if kind == "done":
-                return value
-            if kind == "error":
-                raise value
-            if kind == "progress":
-                progress(*value)
+            raise HoldfastError(_END_TEXT) from error
 
     def _cancel_job(self) -> None:
         """Cancel the job, or kill its process if it does not stop."""
-        self._send_message((self._request_number, "cancel", None))
         try:
+            self._send_message(None)
             while self._answers.get(timeout=CANCEL_TIMEOUT_S)[0] == "progress":
                 continue
-        except queue.Empty:
+        except (queue.Empty, HoldfastError):
             self.stop()
 
 
 def _collect_answers(pipe: IO[bytes], answers: queue.Queue[tuple[str, Any]]) -> None:
-    while True:
-        try:
+    with suppress(EOFError, OSError, ValueError, pickle.UnpicklingError):
+        while True:
             answers.put(pickle.load(pipe))
-        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            answers.put(("error", HoldfastError("the computation ended unexpectedly; request it again")))
-            return
+    answers.put(("error", HoldfastError(_END_TEXT)))
 
 
 # ---- in the worker process ---------------------------------------------------------------------------------------
@@ -146,35 +134,33 @@ def main() -> None:
     arm, task, cell = pickle.load(requests)
 
     from holdfast.interface.studio.compute import JOB_FUNCTIONS
-    from holdfast.interface.studio.scene.machine import CompiledArm, describe_error
+    from holdfast.interface.studio.machine import CompiledArm, describe_error
 
-    machine, pending = CompiledArm(arm, task, cell), queue.SimpleQueue[Any]()
-    newest_cancelled = [0]  # number of the newest cancelled request
+    machine, pending, cancelled = CompiledArm(arm, task, cell), queue.SimpleQueue[Any](), threading.Event()
 
     def read_requests() -> None:
-        while True:
-            try:
+        with suppress(EOFError, OSError, pickle.UnpicklingError):
+            while True:
                 message = pickle.load(requests)
-            except (EOFError, OSError, pickle.UnpicklingError):
-                os._exit(0)  # the parent process has ended, so no result is needed
-            if message[1] == "cancel":
-                newest_cancelled[0] = message[0]
-            else:
-                pending.put(message)
+                if message is None:
+                    cancelled.set()
+                else:  # the parent sends a request only after the previous one has ended
+                    cancelled.clear()
+                    pending.put(message)
+        os._exit(0)  # the parent process has ended, so no result is needed
 
     def send_answer(kind: str, value: Any) -> None:
         pickle.dump((kind, value), answers)
         answers.flush()
 
+    def report_progress(done: int, total: int) -> None:
+        if cancelled.is_set():
+            raise Cancelled
+        send_answer("progress", (done, total))
+
     threading.Thread(target=read_requests, daemon=True).start()
     while True:
-        number, job, state = pending.get()
-
-        def report_progress(done: int, total: int, number: int = number) -> None:
-            if newest_cancelled[0] >= number:
-                raise Cancelled
-            send_answer("progress", (done, total))
-
+        job, state = pending.get()
         try:
             send_answer("done", JOB_FUNCTIONS[job](machine, state, report_progress))
         except HoldfastError as error:

@@ -282,31 +282,6 @@ class InverseKinematics:
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance, accept).success
 
-    def solve_near(
-        self, q: FloatArray, pose: FloatArray, is_movable: FloatArray, tolerance: float, steps: int = MAX_STEPS
-    ) -> tuple[FloatArray, bool]:
-        """Solve from q (n,) towards one pose (4, 4) without restarts, for interactive dragging of an end effector.
-
-        Args:
-            q: (n,) present configuration, rad and m.
-            pose: (4, 4) pose in the world, m.
-            is_movable: (n,) 1 for joints that may move, 0 for locked ones.
-            tolerance: Tolerance, rad, and lengths in units of the arm's own length.
-            steps: Maximum number of steps.
-
-        Returns:
-            The configuration (n,), never farther from the pose than q, with joint values not wrapped; and whether it is on the
-                pose and within the limits.
-        """
-        poses = pose[None]
-        run = self._locked_damped_step_loop.run(
-            q[None], np.concatenate([_flatten_poses(poses), is_movable[None]], axis=1), tolerance**2, steps
-        )
-        candidates = np.concatenate([run.state, q[None]])
-        distances = np.hypot(*self.position_and_rotation_errors(candidates, np.repeat(poses, 2, axis=0)))
-        best = candidates[0] if distances[0] < distances[1] else candidates[1]
-        return best, bool(self.check_solutions(best[None], poses, tolerance)[0])
-
     def _solve_with_restarts(
         self,
         loop: Loop,

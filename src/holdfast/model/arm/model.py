@@ -239,29 +239,18 @@ class Arm(Presentable, ArmData):
         Raises:
             InputError: Options do not fit the arm or each other.
         """
-        page: Html = self._present("page", q, **options)
-        return page
+        return self._present("page", q, **options)  # type: ignore[no-any-return]
 
     def page(self, file: str | Path | None = None, *, q: ArrayLike | None = None, **options: Any) -> Html:
         """Return an interactive page of the arm: one file that needs no server, network, or Python.
 
-        A visitor drags the tool, locks joints, and sees the remaining motion, a better configuration, two control laws
-        after an undetected lock, and the fall after a power cut. The numbers are computed in the browser.
-
         Args:
             file: HTML file to write; None: do not write.
             q: (n,) first configuration, rad and m. Default: a configuration that its self-motion improves most.
-            options: Further content: ``locked``, ``laws``, ``target``, ``task``, ``cell``, ``beside``, ``plain``; see
-                :func:`holdfast.interface.presentation.arm_page.build.build_page`.
-
-        Raises:
-            InputError: Options do not fit the arm or each other.
-            StoreError: The file cannot be written.
+            options: ``locked``, ``laws``, ``target``, ``task``, ``cell``, ``beside``, or ``plain``, as in
+                ``build_page`` of ``holdfast.interface.presentation.arm_page.build``, which states the errors.
         """
-        page: Html = self._present("build_page", q, **options)
-        if file is not None:
-            page.save(file)
-        return page
+        return self._present("build_page", q, file=file, **options)  # type: ignore[no-any-return]
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 

@@ -33,14 +33,17 @@ FAR_AWAY_M = 1e9  # m: distance of pairs that are not checked
 
 @cached_kernel
 def distance_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
-    """Compile the least distance from a block of objects, then that of each moving link from each object, (1 + L BLOCK,).
+    """Compile the least distance from a block of objects, of the arm, of each link, and of each link from each object.
+
+    There are 1 + L + L BLOCK distances for L moving links.
 
     Inputs: q (n,) and the block (BLOCK, 18 + L): the numbers of each object, and the offset of its distance from each link.
     """
     q, objects, sphere_positions = _kernel_symbols(arm, spheres)
     columns = [_distances_by_link(spheres, sphere_positions, objects[object_index, :]) for object_index in range(BLOCK_OBJECTS)]
     by_link = [column[link_position][0] for link_position in range(len(columns[0])) for column in columns]
-    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(select_smallest(by_link), *by_link)])
+    nearest = [select_smallest(by_link[first : first + BLOCK_OBJECTS]) for first in range(0, len(by_link), BLOCK_OBJECTS)]
+    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(select_smallest(nearest), *nearest, *by_link)])
 
 
 @cached_kernel
@@ -269,13 +272,23 @@ class FormulaObjects:
         """Return the least distance beyond the margins (N,), m."""
         return self._smallest_distance(q, self._inflated_blocks)
 
+    def smallest_by_link(self, q: FloatArray) -> FloatArray:
+        """Return the least distance (N, L) of every link, m; there must be objects."""
+        blocks = self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks, output_count=1 + self._links)
+        return np.asarray(reduce(np.minimum, blocks)[:, 1:])
+
     def link_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L, F) of the distance of every link from every object, m."""
         distances = np.empty((len(q), self._links, len(self.objects)))
         for block, outputs in enumerate(self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks)):
             columns = distances[:, :, BLOCK_OBJECTS * block : BLOCK_OBJECTS * (block + 1)]
-            columns[...] = outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)[:, :, : columns.shape[2]]
+            columns[...] = outputs[:, 1 + self._links :].reshape(len(q), self._links, BLOCK_OBJECTS)[:, :, : columns.shape[2]]
         return distances
+
+    def distances_of_pairs(self, q: FloatArray, links: IndexArray, objects: IndexArray) -> FloatArray:
+        """Return a lower bound (N,) of the distance of one link (N,) from one object (N,) at each configuration, m."""
+        rows = self._distance_kernel.rows(q, self._uninflated_blocks[objects // BLOCK_OBJECTS])
+        return np.asarray(rows[np.arange(len(q)), 1 + self._links + links * BLOCK_OBJECTS + objects % BLOCK_OBJECTS])
 
     def single_row_kernels(self) -> list[SingleRowKernel]:
         """Return :func:`nearest_gradient_kernel` of each block for one configuration at a time: the first n of its inputs."""

@@ -208,6 +208,12 @@ class Obstacles:
             else np.minimum(smallest, self._gridded_objects.smallest_margin(q, np.zeros(len(self._grid_indices))))
         )
 
+    def smallest_by_link(self, q: FloatArray) -> FloatArray:
+        """Return the least distance (N, L) of every link, m."""
+        if len(self._formula_indices) == len(self.cell) and len(self.links):
+            return self._formula_objects.smallest_by_link(q)
+        return np.asarray(self.pair_distances(q).reshape(len(q), len(self.links), len(self.cell)).min(axis=2))
+
     def pair_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m if a pair may touch."""
         if len(self._formula_indices) == len(self.cell) and len(self.links):
@@ -218,6 +224,12 @@ class Obstacles:
         if self._gridded_objects is not None:
             distances[:, :, self._grid_indices] = self._gridded_objects.link_distances(q)
         return distances.reshape(len(q), len(self.pairs))
+
+    def distances_of_pairs(self, q: FloatArray, pairs: IndexArray) -> FloatArray:
+        """Return the entry (N,) of :meth:`pair_distances` for one pair (N,) at each configuration (N, n)."""
+        if len(self._formula_indices) == len(self.cell):
+            return self._formula_objects.distances_of_pairs(q, *np.divmod(pairs, len(self.cell)))
+        return self.pair_distances(q)[np.arange(len(q)), pairs]
 
     def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> BoolArray:
         """Return (N,) True where every configuration that meets a tool pose (N, 4, 4) to 1e-6 violates ``margin``, m.

@@ -7,9 +7,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import KDTree
 
 from holdfast.control.falls.along import DropCurve, power_loss_along
 from holdfast.control.falls.power_cut import power_loss
@@ -179,6 +176,9 @@ class _Roadmap:
         costs = self._estimate_costs(first, second)
         is_checked = np.zeros(len(first), dtype=bool)
         for _ in track("searches of the roadmap", range(MOST_ROUNDS), most=True):
+            from scipy.sparse import csr_array
+            from scipy.sparse.csgraph import dijkstra
+
             graph = csr_array((costs, (first, second)), shape=(len(self.q), len(self.q)))
             lengths, before = dijkstra(graph, indices=[0], return_predecessors=True)
             lengths, before = lengths[0], before[0]
@@ -210,6 +210,8 @@ class _Roadmap:
     def _edges(self) -> tuple[IndexArray, IndexArray]:
         """First and second nodes (E,) of the collision-free edges between near nodes, which do not depend on the speed."""
         scaled = self.q * self.metric.scale
+        from scipy.spatial import KDTree
+
         neighbors = KDTree(scaled).query(scaled, k=min(NEIGHBOR_COUNT, len(scaled)), p=np.inf)[1]
         first, second = np.repeat(np.arange(len(scaled)), neighbors.shape[1]), neighbors.ravel()
         pairs = np.unique(np.concatenate([[first, second], [second, first], [[0], [1]]], axis=1), axis=1)

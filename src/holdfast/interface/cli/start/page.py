@@ -43,19 +43,19 @@ def command(
     Example: holdfast page panda --out panda.html
     """
     from holdfast.model import arms
-    from holdfast.model.arm.task import as_task
+    from holdfast.model.arm.task import as_task, default_path_task, target_pose
     from holdfast.model.cell.cell import Cell
     from holdfast.model.shapes.reading import with_mesh_folder
 
     model = chain.resolve_arm(arm)
     model = model if meshes is None else with_mesh_folder(model, meshes)
-    page_task = as_task(model, read_task(task, arm, model))
+    position_task = as_task(model, default_path_task(model, oriented=False))
     page = model.page(
         q=None if q is None else read_configuration(model, q, degrees),
         locked=[read_joint(model, name) for name in lock or []],
         laws=law or ("pseudoinverse", "failure-tolerant"),
-        target=None if target is None else read_target(model, page_task, target),
-        task=page_task,
+        target=None if target is None else target_pose(position_task, read_target(model, position_task, target)),
+        task=as_task(model, read_task(task, arm, model)),
         cell=None if cell is None else Cell.load(cell),
         beside=[arms.load(name) for name in with_ or []],
         plain=plain,

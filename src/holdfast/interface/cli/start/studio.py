@@ -52,9 +52,9 @@ def command(
     ] = None,
     chain: ArmSourceOptions = ArmSourceOptions(),
 ) -> None:
-    """Drag an arm and lock its joints in an interactive 3-D view (needs the extra 'view').
+    """Drag an arm and lock its joints in your browser, and compare laws, regions, and faults.
 
-    Every browser window has its own arm. Ctrl-C stops the server.
+    The page is that of 'page', and a server on this computer answers what needs Python. Ctrl-C stops the server.
 
     Example: holdfast studio panda --lock 4
     """

@@ -179,8 +179,13 @@ def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when:
         out.print(f"[yellow]Joints outside their limits{when}: {escape(', '.join(names))}.[/]", soft_wrap=True)
 
 
-def build_page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
-    """Build the interactive page of an arm; options as in :func:`holdfast.interface.presentation.arm_page.build.build_page`."""
+def build_page(arm: Arm, q: ArrayLike | None = None, *, file: str | Path | None = None, **options: Any) -> Html:
+    """Build the interactive page of an arm, and write it to a file if one is given; options as in
+    :func:`holdfast.interface.presentation.arm_page.build.build_page`.
+    """
     from holdfast.interface.presentation.arm_page import build
 
-    return build.build_page(arm, q, **options)
+    page = build.build_page(arm, q, **options)
+    if file is not None:
+        page.save(file)
+    return page

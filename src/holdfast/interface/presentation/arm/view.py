@@ -53,6 +53,7 @@ def scene(
     readings: Sequence[str] = (),
     joints: bool = False,
     meshes: bool = True,
+    mesh_files: bool = True,
     cell: Cell | None = None,
 ) -> ViewerScene:
     """Build the scene of a view: arms, motion, locked joints, lost directions, targets, region, path, points, and cell.
@@ -76,6 +77,7 @@ def scene(
         readings: (F,) text to show in each frame.
         joints: Show sliders that move the joints of the first arm.
         meshes: Use the visual shapes of the arm's file.
+        mesh_files: Open the mesh files that the arm's file names; if False, all of them count as missing.
         cell: Objects around the arm.
 
     Returns:
@@ -111,7 +113,7 @@ def scene(
     if len(point_colors) != len(point_array):
         raise InputError(f"colors are {len(point_colors)} and points {len(point_array)}; give as many")
     size = stretched_length(arm)
-    body_parts, mesh_note = build_body(arm, size) if meshes else (build_stick_parts(arm, size), "")
+    body_parts, mesh_note = build_body(arm, size, mesh_files) if meshes else (build_stick_parts(arm, size), "")
     up = _up_direction(arm)
     lost_directions = (
         []

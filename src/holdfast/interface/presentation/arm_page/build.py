@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from html import escape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,10 +26,12 @@ from holdfast.interface.presentation.arm_page.phrases import format_percent, lab
 from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
 from holdfast.interface.presentation.arm_page.start import choose_start, find_prepared, measure_fractions, simulate_story
 from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
+from holdfast.kernels.disk_cache import cached_json
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.model import arms
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, default_path_task
+from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 
 STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
@@ -90,14 +93,45 @@ def build_page(
     if beside:
         options = "".join(f"<option>{escape(name)}</option>" for name in names)
         menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
+    return _join_page(sections, names, f"{arm.name}: which joint matters?", menu)
+
+
+def build_studio_page(
+    arm: Arm, q: ArrayLike, task: Task, studio: dict[str, Any], *, cell: Cell | None = None, mesh_files: bool = True
+) -> Html:
+    """Build the page of an arm that asks the server of the studio, with further steps.
+
+    Args:
+        arm: Arm to show.
+        q: (n,) first configuration, rad and m.
+        task: Task of the arm.
+        studio: ``StudioData`` of ``page/src/arm_page/answers.ts``.
+        cell: Objects around the arm.
+        mesh_files: Open the mesh files that the arm's file names.
+
+    Raises:
+        HoldfastError: The arm cannot be shown.
+    """
+    section = _build_section(arm, q, (), DEFAULT_LAWS, None, task, cell, False, studio=studio, mesh_files=mesh_files)
+    return _join_page([section], [arm.name], f"{arm.name}: studio", script="studio.js", connect=" connect-src 'self';")
+
+
+def _join_page(
+    sections: Sequence[_ArmSection],
+    names: Sequence[str],
+    title: str,
+    menu: str = "",
+    script: str = "arm_page.js",
+    connect: str = "",
+) -> Html:
+    """Join the sections of arms to a page with a script; ``connect`` is a further directive of its content security policy."""
     kernels = ",".join(f"{to_script_json(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
     style = read_template("viewer.css") + read_template("arm_page.css")
-    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template('arm_page.js').strip()}"]
+    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
-        f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
+        f"default-src 'none';{connect} script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
         "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
     )
-    title = f"{arm.name}: which joint matters?"
     return Html(
         '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
@@ -124,15 +158,20 @@ def _build_section(
     cell: Cell | None,
     plain: bool,
     hidden: bool = False,
+    studio: dict[str, Any] | None = None,
+    mesh_files: bool = True,
 ) -> _ArmSection:
-    texts, page_task = read_texts(), as_task(arm, task or view.default_task(arm.name, arm))
+    texts, page_task = read_texts(), as_task(arm, task or default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
-    story = None if plain else simulate_story(arm, page_task, start, find_prepared(arm, page_task, start), laws, target)
+    given_target = None if target is None else np.asarray(target, dtype=np.float64).tolist()
+    source = Path(simulate_story.__code__.co_filename).read_text(encoding="utf-8")
+    story = None if plain else _find_story(arm, page_task, start.tolist(), list(laws), given_target, source)
     labels = label_joints(arm)
     argument, options, _ = arms.command_words(arm)
+    argument = argument if studio is None else studio["state"]["arm"]
     fractions = measure_fractions(arm, page_task, start[None])[0]
     bound = upper_bound(n=arm.n, m=page_task.m).bound if arm.n > page_task.m else 0.0
-    scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)))
+    scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)), mesh_files=mesh_files)
     data: dict[str, Any] = {
         "name": arm.name,
         "title": arm.title,
@@ -144,25 +183,42 @@ def _build_section(
         "positionTask": default_path_task(arm, oriented=False),
         "bound": bound,
         "gravity": round_to_seven_digits(arm.gravity),
-        "story": None if story is None else asdict(story),
-        "texts": texts,
+        "story": story,
+        "texts": {key: text for key, text in texts.items() if studio is not None or not key.startswith("studio_")},
     }
+    if studio is not None:
+        data["studio"] = studio
     bars = _write_bars(labels, fractions, bound, texts)
     steps = "".join(
         f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
         for k, step in enumerate(STEP_NAMES)
     )
-    html = (
-        f'<section class="arm" data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" if hidden else ""}>\n'
-        f'<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>\n'
-        f'<div class="arm-panel">\n<p class="arm-headline">{escape(texts["healthy_before"])}</p>\n'
-        f'<p class="arm-detail">{escape(texts["healthy_detail"])}</p>\n<p class="visually-hidden" aria-live="polite"></p>\n{bars}\n'
-        + ("" if plain else f'<ol class="arm-steps" hidden>{steps}</ol>\n<div class="step-controls"></div>\n')
-        + '<details class="arm-commands"></details>\n</div>\n'
-        f'<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>\n'
-        f'<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>\n</section>'
-    )
-    return _ArmSection(html, print_page_kernels(arm, page_task, laws))
+    attributes = f'data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" * hidden}'
+    html = f"""<section class="arm" {attributes}>
+<div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>
+<div class="arm-panel">
+<p class="arm-headline">{escape(texts["healthy_before"])}</p>
+<p class="arm-detail">{escape(texts["healthy_detail"])}</p>
+<p class="visually-hidden" aria-live="polite"></p>
+{bars}
+{"" if plain else f'<ol class="arm-steps" hidden>{steps}</ol><div class="step-controls"></div>'}
+<details class="arm-commands"></details>
+</div>
+<details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>
+<div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>
+</section>"""
+    return _ArmSection(html, print_page_kernels(arm, page_task, () if story is None else laws))
+
+
+@cached_json
+def _find_story(
+    arm: Arm, task: Task, start: list[float], laws: list[str], target: list[float] | None, source: str
+) -> dict[str, Any] | None:
+    """Simulate the story of an arm once; ``source`` is the text that computes it, which the digest of the cache leaves out."""
+    del source
+    q = np.array(start)
+    story = simulate_story(arm, task, q, find_prepared(arm, task, q), laws, target)
+    return None if story is None else asdict(story)
 
 
 def _write_python_arm(arm: Arm, argument: str) -> str:
@@ -177,7 +233,8 @@ def _write_python_arm(arm: Arm, argument: str) -> str:
 def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:
     worst = int(np.argmin(fractions))
     buttons = [
-        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" style="--fraction:{fraction:.4f}">'
+        f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" '
+        f'style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
         f'<span class="bar-value">{format_percent(fraction)}</span>'
         f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span>'

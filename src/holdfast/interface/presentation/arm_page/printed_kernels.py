@@ -9,7 +9,6 @@ import casadi as ca
 
 from holdfast.control.falls.passive_arm import PassiveArm
 from holdfast.control.laws.law import by_name
-from holdfast.kernels.disk_cache import cached_json
 from holdfast.kernels.javascript.functions import define_functions
 from holdfast.kernels.javascript_backend import write_javascript
 from holdfast.kernels.linalg import factor_householder
@@ -30,11 +29,6 @@ def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinver
         task: Task of the page, for the null space and the inverse kinematics.
         laws: Labels of control laws, which move the tool point of the arm; none for an arm with too few joints for that.
     """
-    return _print_programs(arm, task, tuple(laws))
-
-
-@cached_json
-def _print_programs(arm: Arm, task: Task, laws: tuple[str, ...]) -> str:
     q = kinematics.joint_symbols(arm)
     lines: list[str] = []
     members = []

@@ -10,17 +10,18 @@ from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law, by_name
 from holdfast.core.errors import InputError
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.indices import index
+from holdfast.kinematics.solvers.curve_tracing import Component
 from holdfast.kinematics.solvers.inverse_kinematics import solver
-from holdfast.kinematics.solvers.self_motions import fibres
+from holdfast.kinematics.solvers.self_motions import fibres, make_tracer
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.postures import generic_configuration
 from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.collision.clearance import Clearance
 
-_SEED = 20261130
-_POSES = 40
+_RANDOM_SEED = 20261130
+_POSE_COUNT = 40
 _MAX_OFFSET_RAD = 0.7  # of the joints of a candidate from home, rad
 _MIN_LENGTH_RAD = 1.5  # of a self-motion that is long enough to slide along
 _START_FRACTION = 0.25  # of the best worst case, which the start has at most
@@ -32,12 +33,14 @@ _STEP_S = 0.02  # of the page's simulation, in closed_loop.ts
 _DURATION_S = 12.0
 _REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
 _END_M = 0.001  # distance from the target at which a motion ends
-_MOTIONS = 400
+_MOTION_COUNT = 400
+_MAX_TARGET_OFFSET_RAD = 50.0  # beyond which any target is taken, because the arm hardly moves
+_MIN_ARRIVED_FRACTION = 0.5  # of the motions, for an example that arrives
 _MIN_WAY_FRACTION = 0.15  # of the arm's length, from the start of a motion to its target
 
 
 @dataclass(frozen=True)
-class LawChoice:
+class StoryLaw:
     """A control law of the story: its label, and its name in a sentence."""
 
     slug: str
@@ -61,7 +64,7 @@ class Story:
 
     start: list[float]
     target: list[float]
-    laws: tuple[LawChoice, LawChoice]
+    laws: tuple[StoryLaw, StoryLaw]
     gain: float
     speed: float
     motions: int
@@ -80,24 +83,33 @@ def choose_start(arm: Arm, task: Task) -> FloatArray:
     """Choose a configuration (n,) that another configuration of the same tool pose improves much.
 
     The candidates lie on self-motions of poses near home, with the orientation of home. Of the self-motions that are at least
-    1.5 rad long and collision-free, the one with the largest best worst case is chosen, and on it a configuration with at most
-    a quarter of that. The result is the same for the same arm. An arm without such a self-motion gets its generic configuration.
+    1.5 rad long, the one with the largest best worst case is chosen, and on it a configuration with at most a quarter of that.
+    The arm does not touch itself on the way from there to the best. The result is the same for the same arm. An arm without
+    such a self-motion, or with more than one redundant joint, gets its generic configuration.
     """
-    home = arm.states.get("home", generic_configuration(arm))
+    generic = generic_configuration(arm)
+    home = arm.states.get("home", generic)
     if arm.n != task.m + 1:
-        return generic_configuration(arm)
-    generator = np.random.default_rng(_SEED)
-    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSES, arm.n)), arm.lower, arm.upper)
+        return generic
+    generator = np.random.default_rng(_RANDOM_SEED)
+    near = np.clip(home + generator.uniform(-_MAX_OFFSET_RAD, _MAX_OFFSET_RAD, (_POSE_COUNT, arm.n)), arm.lower, arm.upper)
     poses = arm.forward_kinematics(near)
     poses[:, :3, :3] = arm.forward_kinematics(home[None])[0, :3, :3]
+    motions = fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_RANDOM_SEED)
+    curves = [curve for motion in motions for curve in motion.components if curve.length >= _MIN_LENGTH_RAD]
+    if not curves:
+        return generic
+    points, splits = np.vstack([curve.q for curve in curves]), np.cumsum([len(curve.q) for curve in curves])[:-1]
     clearance = Clearance.by_default(arm)
-    best, start = _STRUCTURAL_ZERO, generic_configuration(arm)
-    for motion in fibres(arm, poses, task, spacing=_SPACING_RAD, starts=4, seed=_SEED, clearance=clearance):
-        for curve in motion.components:
-            worst = measure_fractions(arm, task, curve.q).min(axis=1)
-            low = np.flatnonzero(worst <= _START_FRACTION * worst.max())
-            if curve.length >= _MIN_LENGTH_RAD and low.size and worst.max() > best:
-                best, start = float(worst.max()), curve.q[low[np.argmin(abs(low - worst.argmax()))]]
+    touches = np.zeros(len(points), dtype=bool) if clearance is None else clearance(points) <= 0
+    worst_cases = measure_fractions(arm, task, points).min(axis=1)
+    best, start = _STRUCTURAL_ZERO, generic
+    for q, worst, is_touching in zip(*(np.split(rows, splits) for rows in (points, worst_cases, touches)), strict=True):
+        peak, touching = int(worst.argmax()), np.r_[0, is_touching.cumsum()]
+        low = np.flatnonzero(worst <= _START_FRACTION * worst[peak])
+        low = low[touching[np.maximum(low, peak) + 1] == touching[np.minimum(low, peak)]]
+        if low.size and worst[peak] > best:
+            best, start = float(worst[peak]), q[low[np.argmin(abs(low - peak))]]
     return np.asarray(np.round(start, 6))
 
 
@@ -107,7 +119,8 @@ def simulate_story(
     """Simulate 400 random motions with an undetected lock of the worst joint, or only the one to a given ``target``.
 
     The targets are positions of random configurations near the start. The example is the motion whose deviations are closest
-    to the three medians. Where the arm has too few joints for a position task, there is no story.
+    to the three medians, of those that arrive if these are at least half. Where the arm has too few joints for a position
+    task, there is no story.
 
     Args:
         arm: Arm to simulate.
@@ -132,15 +145,17 @@ def simulate_story(
         targets = targets[None] if targets.shape == (3,) else targets[None, :3, 3]
     worst = int(np.argmin(measure_fractions(arm, task, start[None])[0]))
     control_laws = [by_name(label, arm, task=path_task) for label in laws]
-    deviations = np.stack(
-        [
-            simulate_deviations(law, q, targets, worst)
-            for law, q in ((control_laws[0], start), (control_laws[1], start), (control_laws[0], prepared))
-        ]
-    )
+    runs = [
+        simulate_deviations(law, q, targets, worst)
+        for law, q in ((control_laws[0], start), (control_laws[1], start), (control_laws[0], prepared))
+    ]
+    deviations, have_arrived = (np.stack(arrays) for arrays in zip(*runs, strict=True))
     medians = np.median(deviations, axis=1)
-    example = int(np.argmin((abs(deviations / np.maximum(medians, 1e-9)[:, None] - 1)).sum(axis=0)))
-    choices = [LawChoice(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
+    distances = abs(deviations / np.maximum(medians, 1e-9)[:, None] - 1).sum(axis=0)
+    is_suitable = have_arrived.all(axis=0)
+    is_suitable |= np.mean(is_suitable) < _MIN_ARRIVED_FRACTION
+    example = int(np.argmin(np.where(is_suitable, distances, np.inf)))
+    choices = [StoryLaw(label, law.name) for label, law in zip(laws, control_laws, strict=True)]
     return Story(
         start=start.tolist(),
         target=np.round(targets[example], 6).tolist(),
@@ -154,50 +169,55 @@ def simulate_story(
 
 def _draw_targets(arm: Arm, start: FloatArray) -> FloatArray:
     """Draw positions (400, 3) of random configurations near the start that are far enough away, m."""
-    generator = np.random.default_rng(_SEED)
+    generator = np.random.default_rng(_RANDOM_SEED)
     origin = arm.forward_kinematics(start[None])[0, :3, 3]
     targets = np.zeros((0, 3))
     offset = _MAX_OFFSET_RAD
-    while len(targets) < _MOTIONS:
-        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTIONS, arm.n)), arm.lower, arm.upper)
+    while len(targets) < _MOTION_COUNT:
+        q = np.clip(start + generator.uniform(-offset, offset, (4 * _MOTION_COUNT, arm.n)), arm.lower, arm.upper)
         positions = arm.forward_kinematics(q)[:, :3, 3]
         is_far = np.linalg.norm(positions - origin, axis=1) >= _MIN_WAY_FRACTION * arm.length_unit
+        is_far |= offset > _MAX_TARGET_OFFSET_RAD
         targets, offset = np.vstack([targets, positions[is_far]]), 1.5 * offset
-    return targets[:_MOTIONS]
+    return targets[:_MOTION_COUNT]
 
 
-def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> FloatArray:
+def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> tuple[FloatArray, BoolArray]:
     """Return the largest distance (N,) of the tool from the straight line to each target (N, 3), m, with a joint locked.
 
     The controller commands ``q' = G(q) v`` without information about the lock, with the velocity v towards the target, as
-    ``closed_loop.ts`` does: classic Runge-Kutta with 20 ms, until 1 mm from the target, at most 12 s.
+    ``closed_loop.ts`` does: classic Runge-Kutta with 20 ms, until 1 mm from the target, at most 12 s. The second array (N,) is
+    True where the motion ended within 1 mm.
     """
-    rows, moving = law.task.rows[:, :3], np.arange(law.arm.n) != locked
+    arm, rows, moving = law.arm, law.task.rows[:, :3], np.arange(law.arm.n) != locked
 
-    def rates(q: FloatArray) -> FloatArray:
-        errors = targets[active] - law.arm.forward_kinematics(q)[:, :3, 3]
-        distances = np.linalg.norm(errors, axis=1, keepdims=True)
+    def errors_at(q: FloatArray) -> FloatArray:
+        return np.asarray(targets[active] - arm.forward_kinematics(q)[:, :3, 3])
+
+    def rates(q: FloatArray, errors: FloatArray) -> FloatArray:
+        distances = np.sqrt((errors * errors).sum(axis=1, keepdims=True))
         gains = np.minimum(_GAIN_PER_S, _SPEED_M_S / np.maximum(distances, 1e-12))
         return np.asarray(law.velocity(q, gains * errors @ rows.T) * moving)
 
     active = np.arange(len(targets))
     q = np.tile(start, (len(targets), 1))
-    lines = targets - law.arm.forward_kinematics(start[None])[0, :3, 3]
-    largest = np.zeros(len(targets))
+    lines = targets - arm.forward_kinematics(start[None])[0, :3, 3]
+    largest, has_arrived = np.zeros(len(targets)), np.zeros(len(targets), dtype=bool)
     for _ in range(round(_DURATION_S / _STEP_S) + 1):
-        errors = targets[active] - law.arm.forward_kinematics(q)[:, :3, 3]
+        errors = errors_at(q)
         fractions = np.clip((errors * lines[active]).sum(axis=1) / (lines[active] ** 2).sum(axis=1), 0, 1)
         largest[active] = np.maximum(largest[active], np.linalg.norm(errors - fractions[:, None] * lines[active], axis=1))
-        is_moving = (np.linalg.norm(errors, axis=1) > _END_M) & np.isfinite(q).all(axis=1)
-        active, q = active[is_moving], q[is_moving]
+        has_arrived[active] = np.linalg.norm(errors, axis=1) <= _END_M
+        is_moving = ~has_arrived[active] & np.isfinite(q).all(axis=1)
+        active, q, errors = active[is_moving], q[is_moving], errors[is_moving]
         if not len(active):
             break
-        slope_1 = rates(q)
-        slope_2 = rates(q + _STEP_S / 2 * slope_1)
-        slope_3 = rates(q + _STEP_S / 2 * slope_2)
-        slope_4 = rates(q + _STEP_S * slope_3)
+        slope_1 = rates(q, errors)
+        slope_2 = rates(x := q + _STEP_S / 2 * slope_1, errors_at(x))
+        slope_3 = rates(x := q + _STEP_S / 2 * slope_2, errors_at(x))
+        slope_4 = rates(x := q + _STEP_S * slope_3, errors_at(x))
         q = q + _STEP_S / 6 * (slope_1 + 2 * slope_2 + 2 * slope_3 + slope_4)
-    return largest
+    return largest, has_arrived
 
 
 def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:
@@ -206,15 +226,13 @@ def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:
     if arm.n <= task.m:
         return start
     if arm.n == task.m + 1:
-        candidates = [curve.q for curve in fibres(arm, pose, task, spacing=_SPACING_RAD, seed=_SEED)[0].components]
-        nearest = [float(np.linalg.norm(q - start, axis=1).min()) for q in candidates]
-        if not candidates:
-            return start
-        q = candidates[int(np.argmin(nearest))]
+        curves: list[list[Component]] = [[]]
+        make_tracer(arm, task).trace_curves(pose, np.array([0]), start[None], _SPACING_RAD, curves)
+        q = np.vstack([start, *(curve.q for curve in curves[0])])
     else:
-        generator = np.random.default_rng(_SEED)
+        generator = np.random.default_rng(_RANDOM_SEED)
         starts = np.clip(start + generator.normal(0, 0.3, (64, arm.n)), arm.lower, arm.upper)
-        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_SEED)
+        poses, seeds = np.repeat(pose, len(starts), axis=0), np.random.SeedSequence(_RANDOM_SEED)
         found = solver(arm, task).solve(poses, seeds, 1, _REACH_TOLERANCE, first=starts)
         q = np.vstack([start, found.q[found.success]])
     return np.asarray(q[int(np.argmax(measure_fractions(arm, task, q).min(axis=1)))])

@@ -15,7 +15,6 @@ from holdfast.model.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid,
 Faces = NDArray[np.int64]
 
 OBJECT_COLOR_RGB: Color = (205, 178, 126)
-NEAREST_COLOR_RGB: Color = (190, 30, 45)
 _MAX_DRAWN_POINTS = 3000  # maximum number of drawn points of a point cloud
 _PLATE_THICKNESS_FRACTION = 0.02  # thickness of the plate that represents a half space, as a fraction of its width
 

@@ -84,11 +84,7 @@ def present(runs: Runs, k: int | None = None) -> Presentation:
         facts=[
             *list_error_facts(runs, drawing.error_curve, drawing.smallest_errors, run_index),
             Fact("length of the tool path", path_length, "m", phrase="length of the tool path" * (path_length > REACHED_ERROR)),
-            *(
-                []
-                if law.task.angular
-                else [Fact("largest distance from the straight line", runs.line_deviation(run_index), "m")]
-            ),
+            *([] if law.task.angular else [Fact("largest distance from a straight line", runs.line_deviation(run_index), "m")]),
             Fact("simulated time", time, unit, phrase="simulated time" * (time > REACHED_ERROR)),
             *[
                 Fact("", contact.time, unit, phrase=f"until {contact.link} touches {contact.object}")
