@@ -16,8 +16,8 @@ import holdfast as hf
 import oracles
 from holdfast.core.formatting import format_percent
 from holdfast.core.registry import INDEX_REGISTRY
-from holdfast.interface.presentation.assessment.method import explain_index
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
+from holdfast.interface.presentation.assessment.method import explain_index
 from holdfast.model.arm.machine import Joint
 from holdfast.studies.assessment import explain, structure, structures
 
