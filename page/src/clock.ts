@@ -14,9 +14,9 @@ export class Clock {
       // Time zero is the first wake-up, so that the worker's clock and this one need not agree.
       this.schedule ??= new Schedule(now, rate);
       const { start } = this.schedule;
-      const tick = this.schedule.wake(now);
+      const cycles = this.schedule.wake(now);
       // The first of several cycles may end the trial, and stop this clock.
-      for (let i = 0; i < (tick?.cycles ?? 0) && this.schedule !== null; i++) onCycle(now - start);
+      for (let i = 0; i < cycles && this.schedule !== null; i++) onCycle(now - start);
     };
     this.worker.postMessage(rate);
   }

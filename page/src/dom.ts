@@ -48,3 +48,24 @@ export function paragraphs(text: string): HTMLParagraphElement[] {
 export function button(id: string, label: string, onclick: () => void, kind = "primary"): HTMLButtonElement {
   return h("button", { type: "button", class: kind, "data-testid": id, onclick }, label);
 }
+
+/** A screen's card: a heading and paragraphs above its content. */
+export function card<K extends "section" | "form">(
+  tag: K,
+  properties: Properties,
+  title: string,
+  text: string,
+  ...content: Child[]
+): HTMLElementTagNameMap[K] {
+  return h(tag, properties, h("h1", {}, title), h("div", { class: "prose" }, ...paragraphs(text)), ...content);
+}
+
+/** A radio button or checkbox with its label next to it. */
+export function option(input: HTMLInputElement, ...label: Child[]): HTMLLabelElement {
+  return h("label", { class: "option" }, input, h("span", {}, ...label));
+}
+
+/** Change a text only if it differs, so that a screen reader does not repeat it. */
+export function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}

@@ -1,6 +1,7 @@
 /** The page's beginning: what the address says, what the server says, and then the session. */
 
 import { loadArm } from "./arm";
+import { h } from "./dom";
 import { Robot } from "./input/robot";
 import { Station } from "./station";
 import { Storage } from "./storage";
@@ -11,11 +12,7 @@ import "./station.css";
 async function main(): Promise<void> {
   const asked = new URLSearchParams(location.search);
   const robot = asked.get("robot");
-  const passed = new URLSearchParams();
-  for (const name of ["token", "robot"]) {
-    const value = asked.get(name);
-    if (value !== null) passed.set(name, value);
-  }
+  const passed = new URLSearchParams([...asked].filter(([name]) => name === "token" || name === "robot"));
   const address = (path: string): string => {
     const url = new URL(path, location.href);
     const token = asked.get("token");
@@ -35,9 +32,7 @@ async function main(): Promise<void> {
 }
 
 main().catch((error: unknown) => {
-  const line = document.createElement("p");
-  line.className = "failure";
   const reason = error instanceof Error ? error.message : String(error);
-  line.textContent = `This page cannot start: ${reason}. Reload it, or ask the experimenter.`;
-  document.getElementById("app")?.append(line);
+  const text = `This page cannot start: ${reason}. Reload it, or ask the experimenter.`;
+  document.getElementById("app")?.append(h("p", { class: "failure" }, text));
 });

@@ -2,7 +2,6 @@
 
 export const FORMAT = 1;
 export const MOST_CYCLES = 256; // in one message
-export const MOST_BYTES = 131072; // of one message
 
 /** First message of a connection: a new session, or one that is resumed. A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then. */
 export interface Hello {

@@ -3,17 +3,9 @@
  * once keeps its number and its content, so that the server recognises it if it is sent again after a lost connection.
  */
 
-import {
-  MOST_CYCLES,
-  type AnswersMessage,
-  type Begin,
-  type Cycles,
-  type EndMessage,
-  type EventMessage,
-  type Rate,
-} from "./messages";
+import { MOST_CYCLES, type FromPage, type Hello } from "./messages";
 
-export type Numbered = AnswersMessage | Begin | Cycles | EndMessage | EventMessage | Rate;
+export type Numbered = Exclude<FromPage, Hello>;
 type Unnumbered<M> = M extends Numbered ? Omit<M, "seq"> : never;
 export type Body = Unnumbered<Numbered>;
 
@@ -30,7 +22,7 @@ export class Outbox {
 
   constructor(queue: Numbered[] = []) {
     this.queue = queue;
-    this.touched = queue.length ? queue[queue.length - 1].seq : 0;
+    this.touched = queue.at(-1)?.seq ?? 0;
     this.next = this.touched + 1;
   }
 
@@ -45,10 +37,8 @@ export class Outbox {
   /** Return the messages to send now. */
   due(): Numbered[] {
     const found = this.queue.slice(0, WINDOW).filter((m) => m.seq > this.sent);
-    if (found.length) {
-      this.sent = found[found.length - 1].seq;
-      this.touched = Math.max(this.touched, this.sent);
-    }
+    this.sent = found.at(-1)?.seq ?? this.sent;
+    this.touched = Math.max(this.touched, this.sent);
     return found;
   }
 
@@ -65,7 +55,7 @@ export class Outbox {
   connected(last: number): boolean {
     this.acknowledged(last);
     this.sent = last;
-    return last === (this.queue.length ? this.queue[0].seq : this.next) - 1;
+    return last === (this.queue[0]?.seq ?? this.next) - 1;
   }
 
   /** Discard the waiting messages; the session continues after `last`. */
@@ -77,7 +67,7 @@ export class Outbox {
 
   /** Add cycles to the last message if it was never sent. */
   private appended(body: Extract<Body, { type: "cycles" }>): boolean {
-    const last = this.queue[this.queue.length - 1];
+    const last = this.queue.at(-1);
     if (last?.type !== "cycles" || last.seq <= this.touched) return false;
     if (last.first + last.time.length !== body.first || last.time.length + body.time.length > MOST_CYCLES) return false;
     last.time.push(...body.time);

@@ -20,9 +20,4 @@ export class Random {
   normal(): number {
     return Math.sqrt(-2 * Math.log(1 - this.uniform())) * Math.cos(2 * Math.PI * this.uniform());
   }
-
-  /** A whole number below `count`. */
-  below(count: number): number {
-    return Math.floor(this.uniform() * count);
-  }
 }

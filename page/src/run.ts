@@ -1,22 +1,16 @@
 /**
- * One trial under way: `holdfast.teleop.trials.drive_trials` for a single arm, with a protocol's rules. In each cycle the command is read,
- * then the checks are made, then the arm moves: recordings replay exactly because the order is the same.
+ * One trial under way: `holdfast.teleop.trials.drive_trials` for a single arm, with a protocol's rules. In each cycle the
+ * command is read, then the checks are made, then the arm moves: recordings replay exactly because the order is the same.
  */
 
 import type { Arm } from "./arm";
+import type { EndMessage, PlannedTrial } from "./messages";
 import { norm, type Stick } from "./stick";
 
-export type Ending = "arrived" | "time" | "aborted" | "broken-off";
+export type Ending = EndMessage["end"];
 
-export interface Task {
-  /** Code of the control law. */
-  law: number;
-  q0: number[];
-  /** Centre of the target circle, m. */
-  target: number[];
-  /** Index of the locked joint; -1 for none. */
-  joint: number;
-}
+/** Control law, start, target, m, and locked joint of a trial. */
+export type Task = Omit<PlannedTrial, "task">;
 
 export interface Rules {
   /** Radius of the target circle, m. */
@@ -39,7 +33,6 @@ export class Run {
   private readonly target: Float64Array;
   private readonly healthy: Float64Array;
   private readonly out: Float64Array;
-  private readonly toGo: Float64Array;
 
   constructor(
     private readonly arm: Arm,
@@ -52,7 +45,6 @@ export class Run {
     this.target = Float64Array.from(task.target);
     this.velocity = new Float64Array(arm.axes);
     this.x = new Float64Array(arm.axes);
-    this.toGo = new Float64Array(arm.axes);
     this.out = new Float64Array(arm.joints + arm.axes);
     this.healthy = new Float64Array(arm.joints).fill(1);
     if (task.joint >= 0) this.healthy[task.joint] = 0;
@@ -74,8 +66,7 @@ export class Run {
 
   /** True if the tool point is inside the target circle. */
   get inside(): boolean {
-    for (let i = 0; i < this.toGo.length; i++) this.toGo[i] = this.target[i] - this.x[i];
-    return norm(this.toGo) <= this.rules.radius;
+    return norm(this.target.map((v, i) => v - this.x[i])) <= this.rules.radius;
   }
 
   private checked(abort: boolean): Ending | null {

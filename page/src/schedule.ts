@@ -3,13 +3,6 @@
  * cycles that are due meanwhile, as many as a person would not notice; the others are missed, so that the arm never leaps.
  */
 
-export interface Tick {
-  /** Number of cycles to do now. */
-  cycles: number;
-  /** Number of cycles skipped before them. */
-  missed: number;
-}
-
 /** Fraction of a period by which a wake-up may come early. */
 const EARLY = 0.25;
 /** Delay up to which missed cycles are made up, s. */
@@ -27,29 +20,23 @@ export class Schedule {
   /** The latest of all, s. */
   worst = 0;
 
-  /**
-   * @param start s
-   * @param rate cycles per second
-   */
-  constructor(
-    readonly start: number,
-    readonly rate: number,
-  ) {
+  /** @param start s; @param rate cycles per second */
+  constructor(readonly start: number, readonly rate: number) {
     this.most = Math.max(1, Math.floor(MADE_UP * rate));
   }
 
-  /** Return the cycles due at a time, s; null if none is due. */
-  wake(now: number): Tick | null {
+  /** Return the number of cycles to do at a time, s. */
+  wake(now: number): number {
     const slot = Math.floor((now - this.start) * this.rate + EARLY);
     const due = slot - this.last;
-    if (due <= 0) return null;
+    if (due <= 0) return 0;
     const behind = now - this.start - (this.last + 1) / this.rate;
     const cycles = Math.min(due, this.most);
     this.last = slot;
     this.missed += due - cycles;
     if (behind > LATE) this.late += 1;
     this.worst = Math.max(this.worst, behind);
-    return { cycles, missed: due - cycles };
+    return cycles;
   }
 }
 
@@ -66,12 +53,7 @@ export class Frames {
 
   summary(): { frames: number; slow: number; usual: number; worst: number } {
     const sorted = [...this.intervals].sort((a, b) => a - b);
-    const usual = sorted.length ? sorted[Math.floor(sorted.length / 2)] : 0;
-    return {
-      frames: sorted.length,
-      slow: sorted.filter((i) => i > 1.5 * usual).length,
-      usual,
-      worst: sorted.length ? sorted[sorted.length - 1] : 0,
-    };
+    const usual = sorted[Math.floor(sorted.length / 2)] ?? 0;
+    return { frames: sorted.length, slow: sorted.filter((i) => i > 1.5 * usual).length, usual, worst: sorted.at(-1) ?? 0 };
   }
 }

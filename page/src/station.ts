@@ -4,7 +4,7 @@ import type { Arm } from "./arm";
 import { Clock } from "./clock";
 import { Connection } from "./connection";
 import type { Device } from "./input/device";
-import { FORMAT, type Hello, type Plan, type Welcome } from "./messages";
+import { FORMAT, type Done, type Hello, type Plan, type Welcome } from "./messages";
 import { Outbox, type Body } from "./outbox";
 import { Random } from "./random";
 import type { Rules } from "./run";
@@ -15,11 +15,7 @@ import type { Experiment } from "./experiment";
 import { sentence, Texts } from "./texts";
 
 /** Progress of the session. */
-export interface Progress {
-  /** Cycles of each training task; null where it was not completed. */
-  training: (number | null)[];
-  /** Number of completed trials. */
-  trials: number;
+export interface Progress extends Done {
   answered: Set<string>;
   /** The last trial has no rating yet. */
   unrated: boolean;
@@ -144,9 +140,8 @@ export class Station {
     this.session = welcome.session;
     this.subject = welcome.subject;
     this.plan = welcome.plan;
-    const { training, trials } = welcome.done;
-    const { unrated, over } = welcome;
-    this.progress = { training: [...training], trials, answered: new Set(welcome.answered), unrated, over };
+    const { done, unrated, over } = welcome;
+    this.progress = { ...done, answered: new Set(welcome.answered), unrated, over };
     this.frame.subject(welcome.subject);
   }
 

@@ -1,7 +1,7 @@
 /**
- * The stick: rate control, as `holdfast.teleop.trials.Joystick`. The commanded velocity is proportional to the deflection outside the
- * dead zone, and nothing is rescaled there. The arithmetic is the Python one, operation by operation: a recording made here is
- * replayed there.
+ * The stick: rate control, as `holdfast.teleop.trials.Joystick`. The commanded velocity is proportional to the deflection outside
+ * the dead zone, and nothing is rescaled there. The arithmetic is the Python one, operation by operation: a recording made here
+ * is replayed there.
  */
 
 /** Euclidean length as NumPy computes it: the root of the sum of squares, from the first to the last. */
@@ -16,21 +16,13 @@ export class Stick {
    * @param limit largest speed, m/cycle, at full deflection
    * @param deadZone m/cycle: slower commands are none
    */
-  constructor(
-    readonly limit: number,
-    readonly deadZone: number,
-  ) {}
+  constructor(readonly limit: number, readonly deadZone: number) {}
 
   /** Commanded velocity, m/cycle, into `out`, for a deflection of -1 to 1 on each axis. */
   velocity(deflection: ArrayLike<number>, out: Float64Array): void {
     for (let i = 0; i < out.length; i++) out[i] = this.limit * deflection[i];
-    this.limited(out);
-  }
-
-  /** Dead zone and limit applied to a wanted velocity, in place. */
-  limited(v: Float64Array): void {
-    const speed = norm(v);
+    const speed = norm(out);
     const slower = speed > this.limit ? this.limit / speed : 1;
-    for (let i = 0; i < v.length; i++) v[i] = speed < this.deadZone ? 0 : v[i] * slower;
+    for (let i = 0; i < out.length; i++) out[i] = speed < this.deadZone ? 0 : out[i] * slower;
   }
 }

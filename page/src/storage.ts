@@ -13,22 +13,14 @@ export class Storage {
   constructor(private readonly suffix: string) {}
 
   get kept(): Kept | null {
-    return this.read<Kept>("session");
+    return this.read("session");
   }
 
   set kept(value: Kept | null) {
     this.write("session", value);
   }
 
-  device<T>(id: string): T | null {
-    return this.read<T>(`device.${id}`);
-  }
-
-  keepDevice(id: string, value: unknown): void {
-    this.write(`device.${id}`, value);
-  }
-
-  private read<T>(name: string): T | null {
+  read<T>(name: string): T | null {
     try {
       const text = localStorage.getItem(this.name(name));
       return text === null ? null : (JSON.parse(text) as T);
@@ -37,7 +29,7 @@ export class Storage {
     }
   }
 
-  private write(name: string, value: unknown): void {
+  write(name: string, value: unknown): void {
     try {
       if (value === null) localStorage.removeItem(this.name(name));
       else localStorage.setItem(this.name(name), JSON.stringify(value));

@@ -15,11 +15,5 @@ export function trained(criterion: Criterion, cycles: readonly (number | null)[]
 
 /** Number of last consecutive tasks that were completed within the limit. */
 export function inARow(criterion: Criterion, cycles: readonly (number | null)[]): number {
-  let count = 0;
-  for (let k = cycles.length - 1; k >= 0; k--) {
-    const c = cycles[k];
-    if (c === null || c > criterion.limit) break;
-    count += 1;
-  }
-  return count;
+  return cycles.length - 1 - cycles.findLastIndex((c) => c === null || c > criterion.limit);
 }

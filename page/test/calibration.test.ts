@@ -14,21 +14,13 @@ test("the standard layout: to the right is positive, forward is up", () => {
 });
 
 test("an axis that the gamepad lacks does not deflect", () => {
-  expect(read(standard(3), [0, 0])).toEqual([0, 0, 0].map((v) => v));
+  expect(read(standard(3), [0, 0])).toEqual([0, 0, 0]);
 });
 
 test("the wizard finds axes, directions, rest and range, and the button", () => {
   // The stick's axes are 2 and 5 of the device, the first one reversed; it rests off the middle and trembles.
   const tremble = (i: number): number => (i % 2 ? 0.01 : -0.01);
-  const raw = (right: number, up: number, i: number): number[] => [
-    0,
-    0,
-    0.1 - 0.8 * right + tremble(i),
-    0,
-    0,
-    -0.05 - 0.9 * up,
-    0,
-  ];
+  const raw = (right: number, up: number, i: number): number[] => [0, 0, 0.1 - 0.8 * right + tremble(i), 0, 0, -0.05 - 0.9 * up, 0];
   const wizard = new Wizard(2);
   let now = 0;
   const hold = (right: number, up: number, seconds: number, button = -1): string => {

@@ -3,9 +3,7 @@ import { Frames, Schedule } from "../src/schedule";
 import { Random } from "../src/random";
 
 /** Cycles done at each wake-up. */
-function wake(schedule: Schedule, ...times: number[]): number[] {
-  return times.map((t) => schedule.wake(t)?.cycles ?? 0);
-}
+const wake = (schedule: Schedule, ...times: number[]): number[] => times.map((time) => schedule.wake(time));
 
 test("one cycle for each wake-up on time, also where it jitters", () => {
   const schedule = new Schedule(100, 60);

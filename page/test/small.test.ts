@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { backoff } from "../src/backoff";
-import { point, task } from "../src/draw/projection";
+import type { View } from "../src/experiment";
+import { projectPoint, projectTask } from "../src/projection";
 import { sentence, Texts } from "../src/texts";
 
 test("waiting between tries grows, within bounds, and is spread", () => {
@@ -23,14 +24,8 @@ test("the server's reasons become sentences", () => {
 });
 
 test("a view from the side shows x to the right and z upwards", () => {
-  const side = {
-    label: "x, z",
-    rows: [
-      [1, 0, 0],
-      [0, 0, 1],
-    ] as [number[], number[]],
-  };
-  expect(point(side, [9, 9, 9, 1, 2, 3], 3)).toEqual([1, 3]);
-  expect(task(side, [1, 2, 3])).toEqual([1, 3]);
-  expect(task(side, [1, 2])).toEqual([1, 2]);
+  const side: View = { label: "x, z", rows: [[1, 0, 0], [0, 0, 1]] };
+  expect(projectPoint(side, [9, 9, 9, 1, 2, 3], 3)).toEqual([1, 3]);
+  expect(projectTask(side, [1, 2, 3])).toEqual([1, 3]);
+  expect(projectTask(side, [1, 2])).toEqual([1, 2]);
 });

@@ -1,8 +1,6 @@
 // What holds the stick in the tests: a gamepad that is not there, and somebody who steers by what is drawn on the screen.
 // Knows the page only as a person does: the blue dot has to come into the orange circle. Loaded before the page itself.
 (() => {
-  const BLUE = "#0a5c9e"; // page/src/draw/palette.ts
-  const ORANGE = "#c8500a";
   const SAID = "operator.said.";
   const pad = {
     id: "Stick of the tests",
@@ -71,27 +69,19 @@
     return send.call(this, text);
   };
 
-  const drawn = new WeakMap();
-  const { arc, fill, stroke } = CanvasRenderingContext2D.prototype;
-  const arm = (c) => c.canvas.dataset.testid === "arm-1";
-  CanvasRenderingContext2D.prototype.arc = function (x, y, radius, ...more) {
-    if (arm(this)) drawn.set(this, { ...drawn.get(this), last: { x, y, radius } });
-    return arc.call(this, x, y, radius, ...more);
-  };
-  CanvasRenderingContext2D.prototype.stroke = function (...more) {
-    const seen = drawn.get(this);
-    if (seen && this.strokeStyle === ORANGE) seen.target = seen.last;
-    return stroke.apply(this, more);
-  };
-  CanvasRenderingContext2D.prototype.fill = function (...more) {
-    const seen = drawn.get(this);
-    if (seen?.target && this.fillStyle === BLUE) {
-      const { target, last: hand } = seen;
-      operator.way = [(target.x - hand.x) / target.radius, (target.y - hand.y) / target.radius];
+  const NUMBERS = ["cx", "cy", "r"];
+  function watch() {
+    const [target, tool] = [".target", ".tool-point"].map((part) => {
+      const circle = document.querySelector(`[data-testid=arm-1] ${part}`);
+      return circle && NUMBERS.map((name) => Number(circle.getAttribute(name)));
+    });
+    if (target && tool) {
+      operator.way = [(target[0] - tool[0]) / target[2], (tool[1] - target[1]) / target[2]];
       look();
     }
-    return fill.apply(this, more);
-  };
+    requestAnimationFrame(watch);
+  }
+  requestAnimationFrame(watch);
 
   new MutationObserver((changes) => {
     for (const { target } of changes) {

@@ -16,7 +16,6 @@ export class LiveView {
   private readonly windows: HTMLElement;
   private readonly start: Float64Array;
   private readonly q: Float64Array;
-  private cycle: Cycle | null = null;
 
   constructor(
     private readonly experiment: Experiment,
@@ -30,17 +29,21 @@ export class LiveView {
     this.velocities = new VelocityWindows(drawn);
     this.windows = h("div", { class: "windows" }, ...this.arms.elements, ...this.velocities.elements);
     this.element = h("div", { class: "live", "data-testid": "live" }, this.what, this.windows);
-    new ResizeObserver(() => this.draw()).observe(this.windows);
   }
 
   /** @param cycle the last that is known; null for none */
   show(cycle: Cycle | null, steering: boolean): void {
-    this.cycle = cycle;
     this.element.dataset.steering = String(steering);
     this.element.dataset.cycle = cycle === null ? "" : String(cycle.cycle);
     this.windows.hidden = cycle === null;
-    this.what.textContent = [...(steering ? [] : [texts.still]), ...(cycle === null ? [] : [this.said(cycle, steering)])].join(" ");
-    this.draw();
+    const said = cycle === null ? "" : this.said(cycle, steering);
+    this.what.textContent = steering ? said : `${texts.still} ${said}`.trim();
+    if (cycle === null) return;
+    this.q.set(cycle.q0);
+    this.arm.position(this.q, this.start);
+    this.q.set(cycle.q);
+    this.arms.draw(this.q, this.start, cycle.target);
+    this.velocities.draw(cycle.velocity);
   }
 
   private said(c: Cycle, steering: boolean): string {
@@ -49,15 +52,5 @@ export class LiveView {
     const seconds = (c.cycle / this.experiment.rate).toFixed(1);
     const said = texts.under(texts[c.kind], c.position + 1, this.about.scenarios[c.scenario], locked, seconds);
     return steering ? said[0].toUpperCase() + said.slice(1) : `${texts.last} ${said}`;
-  }
-
-  private draw(): void {
-    if (this.cycle === null) return;
-    const { q0, q, target, velocity } = this.cycle;
-    this.q.set(q0);
-    this.arm.position(this.q, this.start);
-    this.q.set(q);
-    this.arms.draw(this.q, { start: this.start, target });
-    this.velocities.draw(velocity);
   }
 }

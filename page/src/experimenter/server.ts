@@ -1,6 +1,7 @@
 /** Data from the server for the experimenter, and requests to the server. */
 
 import { backoff } from "../backoff";
+import type { Drawn } from "../screens/windows";
 import { texts } from "./texts";
 
 export interface Subject {
@@ -40,7 +41,7 @@ export interface About {
   scenarios: string[];
   joints: string[];
   /** Tasks of a session, for the windows. */
-  plan: { training: { q0: number[]; target: number[] }[]; trials: { q0: number[]; target: number[] }[] };
+  plan: Drawn["plan"];
 }
 
 /** A control cycle of a trial under way. */

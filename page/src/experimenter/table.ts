@@ -1,6 +1,6 @@
 /** All subjects, one row each, in the order in which they came. Rows are changed in place: the focus stays where it is. */
 
-import { h } from "../dom";
+import { button, h } from "../dom";
 import type { Subject } from "./server";
 import { texts } from "./texts";
 
@@ -17,41 +17,24 @@ class Row {
   private readonly now = h("span", { class: "now" });
   private readonly paused = h("span", { class: "paused" }, texts.paused);
   private readonly training = h("td", { class: "number" });
-  private readonly bar = h("progress", {});
+  private readonly bar = h("progress", { "aria-hidden": "true" });
   private readonly trials = h("span", {});
   private readonly replay = h("td", { class: "replay", title: texts.differsHelp });
   private readonly row = h("td", { class: "number" });
   private readonly note = h("td", { class: "note" });
 
   constructor(code: string, choose: (code: string) => void) {
-    this.button = h(
-      "button",
-      { type: "button", class: "code", "data-testid": `subject-${code}`, "aria-pressed": "false", onclick: () => choose(code) },
-      code,
-    );
-    this.bar.setAttribute("aria-hidden", "true");
-    this.element = h(
-      "tr",
-      { "data-testid": `row-${code}` },
-      h("th", { scope: "row" }, this.button, this.kind),
-      h("td", { class: "state" }, this.now, this.paused),
-      this.training,
-      h("td", { class: "trials" }, this.bar, this.trials),
-      this.replay,
-      this.row,
-      this.note,
-    );
+    this.button = button(`subject-${code}`, code, () => choose(code), "code");
+    const head = h("th", { scope: "row" }, this.button, this.kind);
+    const state = h("td", { class: "state" }, this.now, this.paused);
+    const trials = h("td", { class: "trials" }, this.bar, this.trials);
+    this.element = h("tr", { "data-testid": `row-${code}` }, head, state, this.training, trials, this.replay, this.row, this.note);
     this.element.addEventListener("click", (event) => event.target !== this.button && choose(code));
   }
 
   show(s: Subject, steering: boolean, chosen: boolean): void {
-    const { dataset } = this.element;
-    dataset.state = s.state;
-    dataset.connected = String(s.connected);
-    dataset.steering = String(steering);
-    dataset.paused = String(s.paused);
-    dataset.differing = String(s.differing);
-    dataset.chosen = String(chosen);
+    const { state, connected, paused, differing } = s;
+    Object.assign(this.element.dataset, { state, connected, steering, paused, differing, chosen });
     this.button.setAttribute("aria-pressed", String(chosen));
     this.kind.textContent = s.kind === "person" ? "" : texts.simulated;
     this.now.textContent = now(s, steering);
@@ -75,12 +58,8 @@ export class Table {
 
   constructor(private readonly choose: (code: string) => void) {
     const head = h("tr", {}, ...texts.columns.map((name) => h("th", { scope: "col" }, name)));
-    this.element = h(
-      "section",
-      { class: "subjects" },
-      h("table", { "data-testid": "subjects" }, h("thead", {}, head), this.body),
-      this.none,
-    );
+    const table = h("table", { "data-testid": "subjects" }, h("thead", {}, head), this.body);
+    this.element = h("section", { class: "subjects" }, table, this.none);
   }
 
   show(subjects: Subject[], steering: (code: string) => boolean, chosen: string | null): void {
@@ -92,12 +71,9 @@ export class Table {
       this.rows.delete(code);
     }
     for (const s of subjects) {
-      let row = this.rows.get(s.subject);
-      if (row === undefined) {
-        row = new Row(s.subject, this.choose);
-        this.rows.set(s.subject, row);
-        this.body.append(row.element);
-      }
+      const row = this.rows.get(s.subject) ?? new Row(s.subject, this.choose);
+      if (!row.element.isConnected) this.body.append(row.element);
+      this.rows.set(s.subject, row);
       row.show(s, steering(s.subject), s.subject === chosen);
     }
   }

@@ -18,38 +18,18 @@ export class Top {
   private readonly fault = h("p", { class: "banner fault", role: "alert", "data-testid": "fault", hidden: true });
 
   constructor(server: Server, about: About, name: string, say: (text: string) => void) {
-    this.pause = button(
-      "pause-all",
-      texts.pauseAll,
-      () => {
-        say("");
-        server.post("pause", { subject: null, paused: !this.paused }).catch((error: Error) => say(error.message));
-      },
-      "second",
-    );
-    this.element = h(
-      "div",
-      { class: "top" },
-      h("header", {}, h("span", { class: "name" }, `${texts.title}: ${name}`), this.line),
-      h(
-        "div",
-        { class: "tools" },
-        this.pause,
-        this.dryRun(about),
-        opener("export", texts.export, texts.exportHelp, server.address("/experimenter/export.zip")),
-        this.report(server),
-      ),
-      h(
-        "p",
-        { class: "where" },
-        `${texts.folder} `,
-        h("code", { "data-testid": "folder" }, about.folder),
-        ` \u00b7 ${texts.station} `,
-        h("code", { "data-testid": "station-url" }, about.station),
-      ),
-      this.banner,
-      this.fault,
-    );
+    const togglePause = (): void => {
+      say("");
+      server.post("pause", { subject: null, paused: !this.paused }).catch((error: Error) => say(error.message));
+    };
+    this.pause = button("pause-all", texts.pauseAll, togglePause, "second");
+    const header = h("header", {}, h("span", { class: "name" }, `${texts.title}: ${name}`), this.line);
+    const tables = opener("export", texts.export, texts.exportHelp, server.address("/experimenter/export.zip"));
+    const tools = h("div", { class: "tools" }, this.pause, this.dryRun(about), tables, this.report(server));
+    const folder = h("code", { "data-testid": "folder" }, about.folder);
+    const station = h("code", { "data-testid": "station-url" }, about.station);
+    const where = h("p", { class: "where" }, `${texts.folder} `, folder, ` \u00b7 ${texts.station} `, station);
+    this.element = h("div", { class: "top" }, header, tools, where, this.banner, this.fault);
   }
 
   online(yes: boolean): void {

@@ -16,14 +16,14 @@ export interface Device {
   readonly kind: Kind;
   /** The deflection now, -1 to 1 on each axis of the task. */
   read(out: Float64Array): void;
-  /** True if the trigger has been pressed since the last call. */
-  triggered(): boolean;
+  /** True if the trigger has been pressed since the last call. The space bar starts a trial with every device. */
+  triggered?(): boolean;
   /** True if the device was disconnected. */
-  lost(): boolean;
-  /** Description of the device for the records. */
-  about(): Record<string, string | number>;
-  /** Take a window as a surface; the centre of the stick is its middle. `reach`: pixels to full deflection. */
-  attach?(surface: HTMLElement, view: View, reach: () => number): void;
+  lost?(): boolean;
+  /** Details of the device for the records. */
+  about?(): Record<string, string | number>;
+  /** Take a velocity window as a surface; the centre of the stick is its middle. */
+  attach?(surface: SVGElement, view: View): void;
   /** Forget the windows. */
   detach?(): void;
   /** A trial begins. */
@@ -33,5 +33,5 @@ export interface Device {
   /** True if the simulated person wants to give up the trial. */
   readonly tired?: boolean;
   /** Stop listening to anything. */
-  release(): void;
+  release?(): void;
 }

@@ -50,14 +50,10 @@ export class Pad implements Device {
     const of = (a: Calibration["axes"][number]): string =>
       `${a.axis}: ${a.centre.toFixed(4)} ${a.range.toFixed(4)} ${a.noise.toFixed(4)}`;
     const axes = Object.fromEntries(this.calibration.axes.map((a, i) => [`axis${i + 1}`, of(a)]));
-    return { device: this.kind, id: this.id.slice(0, 200), ...axes };
+    return { id: this.id.slice(0, 200), ...axes };
   }
 
   begin(): void {
     this.held = true;
-  }
-
-  release(): void {
-    // Gamepads are asked, not listened to.
   }
 }

@@ -34,18 +34,6 @@ export class Keys implements Device {
     }
   }
 
-  triggered(): boolean {
-    return false; // space starts with every device
-  }
-
-  lost(): boolean {
-    return false;
-  }
-
-  about(): Record<string, string | number> {
-    return { device: this.kind };
-  }
-
   release(): void {
     this.controller.abort();
   }

@@ -1,35 +1,33 @@
 /** Mouse or finger as a stick: pressed and drawn away from the middle of a velocity window; it springs back when released. */
 
 import type { View } from "../experiment";
+import { REACH_FRACTION } from "../screens/windows";
 import type { Device } from "./device";
 
 export class Pointer implements Device {
   readonly kind = "pointer";
   /** Of each surface under a pointer: the deflection, along the view's two axes. */
-  private readonly drawn = new Map<HTMLElement, { view: View; right: number; up: number }>();
+  private readonly drawn = new Map<Element, { view: View; right: number; up: number }>();
   private controller = new AbortController();
 
-  attach(surface: HTMLElement, view: View, reach: () => number): void {
+  attach(surface: SVGElement, view: View): void {
     const { signal } = this.controller;
     const draw = (event: PointerEvent): void => {
       const box = surface.getBoundingClientRect();
-      const right = (event.clientX - box.left - box.width / 2) / reach();
-      const up = (box.top + box.height / 2 - event.clientY) / reach();
+      const reach = (REACH_FRACTION * Math.min(box.width, box.height)) / 2;
+      const right = (event.clientX - box.left - box.width / 2) / reach;
+      const up = (box.top + box.height / 2 - event.clientY) / reach;
       this.drawn.set(surface, { view, right: clamp(right), up: clamp(up) });
     };
     const letGo = (): void => void this.drawn.delete(surface);
     surface.classList.add("stick");
-    surface.addEventListener(
-      "pointerdown",
-      (event) => {
-        surface.setPointerCapture(event.pointerId);
-        draw(event);
-      },
-      { signal },
-    );
+    const press = (event: PointerEvent): void => {
+      surface.setPointerCapture(event.pointerId);
+      draw(event);
+    };
+    surface.addEventListener("pointerdown", press, { signal });
     surface.addEventListener("pointermove", (event) => this.drawn.has(surface) && draw(event), { signal });
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
-      surface.addEventListener(name, letGo, { signal });
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) surface.addEventListener(name, letGo, { signal });
   }
 
   read(out: Float64Array): void {
@@ -43,22 +41,6 @@ export class Pointer implements Device {
       }
     }
     for (let i = 0; i < out.length; i++) out[i] = clamp(out[i]);
-  }
-
-  triggered(): boolean {
-    return false;
-  }
-
-  lost(): boolean {
-    return false;
-  }
-
-  about(): Record<string, string | number> {
-    return { device: this.kind };
-  }
-
-  release(): void {
-    this.detach();
   }
 
   detach(): void {

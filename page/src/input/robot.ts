@@ -68,22 +68,16 @@ export class Robot implements Device {
     const before = this.seen[Math.max(0, Math.round(then - LOOK_BACK * this.rate))];
     const toGo = now.map((v, i) => target[i] - v);
     const distance = norm(toGo);
-    this.reconsider(
-      cycle,
-      then,
-      norm(now.map((v, i) => v - before[i])),
-      distance - norm(before.map((v, i) => target[i] - v)),
-    );
+    const moved = norm(now.map((v, i) => v - before[i]));
+    this.reconsider(cycle, then, moved, distance - norm(before.map((v, i) => target[i] - v)));
     this.stopped = distance < (this.stopped ? STARTS_AGAIN : STOPS) * this.radius;
     const size = this.stopped ? 0 : Math.min(1, distance / Math.max(SLOWING * this.rate, 1) / this.limit);
     const aim = toGo.map((v) => (size * v) / Math.max(distance, 1e-12));
     if (cycle < this.detourUntil) turn(aim, this.side * TURN * this.detours);
     const follow = 1 - Math.exp(-1 / (LAG * this.rate));
-    for (let i = 0; i < aim.length; i++) {
-      this.deflection[i] += follow * (aim[i] - this.deflection[i]);
-    }
-    const size2 = norm(this.deflection);
-    for (let i = 0; i < aim.length; i++) this.deflection[i] += follow * NOISE * size2 * this.random.normal();
+    for (let i = 0; i < aim.length; i++) this.deflection[i] += follow * (aim[i] - this.deflection[i]);
+    const noise = follow * NOISE * norm(this.deflection);
+    for (let i = 0; i < aim.length; i++) this.deflection[i] += noise * this.random.normal();
   }
 
   read(out: Float64Array): void {
@@ -94,16 +88,8 @@ export class Robot implements Device {
     return true;
   }
 
-  lost(): boolean {
-    return false;
-  }
-
   about(): Record<string, string | number> {
-    return { device: this.kind, seed: this.seed };
-  }
-
-  release(): void {
-    // Listens to nothing.
+    return { seed: this.seed };
   }
 
   private reconsider(cycle: number, then: number, moved: number, lostGround: number): void {

@@ -1,6 +1,6 @@
 /** A form: its questions come from the texts. */
 
-import { button, h, paragraphs } from "../dom";
+import { button, card, h, option } from "../dom";
 import type { Station } from "../station";
 import type { Form, Question } from "../experiment";
 
@@ -9,7 +9,7 @@ type Answer = string | number | boolean;
 interface Field {
   question: Question;
   element: HTMLElement;
-  /** The answer; null while there is none. */
+  /** The answer; null if there is none, or none that is valid. */
   read(): Answer | null;
   /** Answer somehow, in a dry run. */
   fill(chance: number): void;
@@ -18,25 +18,20 @@ interface Field {
 /** @returns the answers; null where the person declined */
 export function showForm(element: HTMLElement, station: Station, form: Form): Promise<Record<string, Answer> | null> {
   return new Promise((resolve) => {
-    const fields = form.questions.map((q) => field(q, station));
+    const fields = form.questions.map((q) => createField(q, station));
     const submit = (): void => {
       const answers = collect(fields, station);
       if (answers !== null) resolve(answers);
     };
     const decline = form.decline === undefined ? null : button("decline", form.decline, () => resolve(null), "second");
     const send = h("button", { type: "submit", class: "primary", "data-testid": "submit" }, form.submit);
-    const body = h(
-      "form",
-      { class: "card", "data-testid": `form-${form.name}`, novalidate: true },
-      h("h1", {}, form.title),
-      h("div", { class: "prose" }, ...paragraphs(form.text)),
-      ...fields.map((f) => f.element),
-      h("div", { class: "buttons" }, send, decline),
-    );
-    body.addEventListener("submit", (event) => {
+    const properties = { class: "card", "data-testid": `form-${form.name}`, novalidate: true };
+    const buttons = h("div", { class: "buttons" }, send, decline);
+    const body = card("form", properties, form.title, form.text, ...fields.map((f) => f.element), buttons);
+    body.onsubmit = (event): void => {
       event.preventDefault();
       submit();
-    });
+    };
     element.replaceChildren(body);
     body.querySelector<HTMLElement>("input, select")?.focus({ preventScroll: true });
     const random = station.robot;
@@ -48,105 +43,77 @@ export function showForm(element: HTMLElement, station: Station, form: Form): Pr
 function collect(fields: Field[], station: Station): Record<string, Answer> | null {
   const answers: Record<string, Answer> = {};
   let first: HTMLElement | null = null;
-  for (const f of fields) {
-    const answer = f.read();
-    const missing = (answer === null || (f.question.kind === "check" && answer === false)) && !f.question.optional;
-    complain(f, missing ? station.texts.get(f.question.kind === "check" ? "answer_tick" : "answer_missing") : "");
-    if (missing) first ??= f.element;
-    else if (answer !== null) answers[f.question.name] = answer;
+  for (const { question, element, read } of fields) {
+    const answer = read();
+    const missing = answer === null && !question.optional;
+    const complaint = element.querySelector(".complaint");
+    const reason = question.kind === "check" ? "answer_tick" : "answer_missing";
+    if (complaint) complaint.textContent = missing ? station.texts.get(reason) : "";
+    if (missing) first ??= element;
+    else if (answer !== null) answers[question.name] = answer;
   }
   first?.scrollIntoView({ block: "center" });
   first?.querySelector<HTMLElement>("input")?.focus({ preventScroll: true });
   return first === null ? answers : null;
 }
 
-function complain(f: Field, text: string): void {
-  const place = f.element.querySelector(".complaint");
-  if (place) place.textContent = text;
-}
-
-function field(q: Question, station: Station): Field {
+function createField(q: Question, station: Station): Field {
   switch (q.kind) {
     case "choice":
-      return choice(q, station);
+      return createChoice(q, station);
     case "check":
-      return check(q);
+      return createCheck(q);
     case "scale":
-      return scale(q, station);
-    case "number":
-    case "text":
-      return entry(q, station);
+      return createScale(q, station);
+    default:
+      return createEntry(q, station);
   }
 }
 
-function choice(q: Question, station: Station): Field {
-  const inputs = (q.options ?? []).map((o) =>
-    h("input", {
-      type: "radio",
-      name: q.name,
-      value: o.value,
-      id: `${q.name}-${o.value}`,
-      "data-testid": `${q.name}-${o.value}`,
-    }),
-  );
-  const options = (q.options ?? []).map((o, i) =>
-    h("label", { class: "option", for: inputs[i].id }, inputs[i], h("span", {}, o.label)),
-  );
+function createChoice(q: Question, station: Station): Field {
+  const { name, options = [] } = q;
+  const inputs = options.map(({ value }) => h("input", { type: "radio", name, value, "data-testid": `${name}-${value}` }));
   return {
     question: q,
-    element: group(q, station, h("div", { class: "options" }, ...options)),
+    element: group(q, station, h("div", { class: "options" }, ...inputs.map((input, i) => option(input, options[i].label)))),
     read: () => inputs.find((i) => i.checked)?.value ?? null,
     fill: (chance) => void (inputs[Math.floor(chance * inputs.length)].checked = true),
   };
 }
 
-function check(q: Question): Field {
-  const input = h("input", { type: "checkbox", id: q.name, "data-testid": q.name });
-  const label = h("label", { class: "option", for: q.name }, input, h("span", {}, q.label));
+function createCheck(q: Question): Field {
+  const input = h("input", { type: "checkbox", "data-testid": q.name });
   return {
     question: q,
-    element: h("div", { class: "question" }, label, complaint()),
-    read: () => input.checked,
+    element: h("div", { class: "question" }, option(input, q.label), complaint()),
+    read: () => input.checked || (q.optional ? false : null),
     fill: () => void (input.checked = true),
   };
 }
 
-function scale(q: Question, station: Station): Field {
+function createScale(q: Question, station: Station): Field {
   const [from, to, step] = [q.from ?? 0, q.to ?? 100, q.step ?? 5];
-  const middle = from + step * Math.round((to - from) / 2 / step);
   const input = h("input", {
     type: "range",
     min: from,
     max: to,
     step,
-    value: middle,
+    value: from + step * Math.round((to - from) / 2 / step),
     class: "untouched",
     "data-testid": q.name,
     "aria-label": q.label,
     "aria-describedby": `${q.name}-help`,
   });
-  let touched = false;
-  const touch = (): void => {
-    touched = true;
-    input.classList.remove("untouched");
-  };
-  // A slider says nothing before it was moved, or clicked where it is.
-  for (const name of ["input", "pointerup", "keydown"]) {
-    input.addEventListener(name, (event) => {
-      if (
-        !(event instanceof KeyboardEvent) ||
-        event.key === " " ||
-        event.key === "Enter" ||
-        event.key.startsWith("Arrow")
-      )
-        touch();
-    });
-  }
+  const touch = (): void => input.classList.remove("untouched");
+  // A slider has no answer before it was moved, or clicked or confirmed at its first position.
+  input.addEventListener("input", touch);
+  input.addEventListener("pointerup", touch);
+  input.addEventListener("keydown", ({ key }) => /^( |Enter|Arrow.*)$/.test(key) && touch());
   const ends = h("div", { class: "ends" }, h("span", {}, q.low), h("span", {}, q.high));
   return {
     question: q,
     element: group(q, station, h("div", { class: "scale" }, input, ends)),
-    read: () => (touched ? input.valueAsNumber : null),
+    read: () => (input.classList.contains("untouched") ? null : input.valueAsNumber),
     fill: (chance) => {
       input.valueAsNumber = from + step * Math.round((chance * (to - from)) / step);
       touch();
@@ -154,28 +121,16 @@ function scale(q: Question, station: Station): Field {
   };
 }
 
-function entry(q: Question, station: Station): Field {
-  const number = q.kind === "number";
-  const input = h("input", {
-    type: number ? "number" : "text",
-    id: q.name,
-    "data-testid": q.name,
-    min: q.from,
-    max: q.to,
-    maxlength: 200,
-  });
-  const [from, to] = [q.from ?? -Infinity, q.to ?? Infinity];
-  return {
-    question: q,
-    element: group(q, station, input),
-    read: () => {
-      if (!number) return input.value.trim() || null;
-      const value = input.valueAsNumber;
-      return value >= from && value <= to ? value : null;
-    },
-    fill: (chance) =>
-      void (input.value = number ? String(Math.round((q.from ?? 0) + chance * ((q.to ?? 100) - (q.from ?? 0)))) : "-"),
+function createEntry(q: Question, station: Station): Field {
+  const { kind, from = -Infinity, to = Infinity } = q;
+  const input = h("input", { type: kind, id: q.name, "data-testid": q.name, min: q.from, max: q.to, maxlength: 200 });
+  const random = (chance: number): number => Math.round((q.from ?? 0) + chance * ((q.to ?? 100) - (q.from ?? 0)));
+  const read = (): Answer | null => {
+    if (kind === "text") return input.value.trim() || null;
+    return input.valueAsNumber >= from && input.valueAsNumber <= to ? input.valueAsNumber : null;
   };
+  const fill = (chance: number): void => void (input.value = kind === "text" ? "-" : String(random(chance)));
+  return { question: q, element: group(q, station, input), read, fill };
 }
 
 function group(q: Question, station: Station, content: HTMLElement): HTMLElement {

@@ -8,17 +8,14 @@ export class Frame {
   readonly stage = h("main", { id: "stage", "data-testid": "stage" });
   private readonly where = h("span", { class: "where", "data-testid": "progress" });
   private readonly who = h("span", { class: "who", "data-testid": "subject" });
-  private readonly line = h("span", {
-    class: "line",
-    role: "status",
-    "data-testid": "connection",
-    "data-online": "none",
-  });
+  private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
   private readonly cover = h("div", { class: "cover", role: "alertdialog", "aria-live": "assertive", hidden: true });
   private paused = false;
-  private lost = false;
   private busy = false;
-  private over = false;
+  /** True if the server cannot store anything. */
+  isUnstored = false;
+  /** Reason why the session cannot continue in this page; null if it can. */
+  private reason: string | null = null;
 
   constructor(private readonly texts: Texts) {
     document.documentElement.lang = texts.get("language");
@@ -51,15 +48,10 @@ export class Frame {
     this.update();
   }
 
-  /** The server cannot store anything any more: everything stops at once. */
+  /** The server cannot store anything any more, or can again: everything stops at once, or resumes. */
   unstored(yes: boolean): void {
-    if (yes === this.lost) return;
-    this.lost = yes;
+    this.isUnstored = yes;
     this.update();
-  }
-
-  get isUnstored(): boolean {
-    return this.lost;
   }
 
   /** A trial is under way, or is being rated: no pause now. */
@@ -74,27 +66,17 @@ export class Frame {
 
   /** The session cannot continue in this page. */
   stop(reason: string): void {
-    this.over = true;
-    this.show("stopped", this.texts.get("stopped_title"), reason);
+    this.reason = reason;
+    this.update();
   }
 
   private update(): void {
-    if (this.over) return;
-    if (this.lost) this.show("unstored", this.texts.get("unstored_title"), this.texts.get("unstored_text"));
-    else if (this.isPaused) this.show("paused", this.texts.get("paused_title"), this.texts.get("paused_text"));
-    else this.hide();
-  }
-
-  private show(testid: string, title: string, text: string): void {
-    this.cover.replaceChildren(
-      h("div", { class: "card", "data-testid": testid }, h("h1", {}, title), ...paragraphs(text)),
-    );
-    this.cover.hidden = false;
-    this.stage.inert = true;
-  }
-
-  private hide(): void {
-    this.cover.hidden = true;
-    this.stage.inert = false;
+    const key = this.reason !== null ? "stopped" : this.isUnstored ? "unstored" : this.isPaused ? "paused" : null;
+    this.stage.inert = key !== null;
+    this.cover.hidden = key === null;
+    if (key === null) return;
+    const title = h("h1", {}, this.texts.get(`${key}_title`));
+    const text = paragraphs(this.reason ?? this.texts.get(`${key}_text`));
+    this.cover.replaceChildren(h("div", { class: "card", "data-testid": key }, title, ...text));
   }
 }

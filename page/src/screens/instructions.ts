@@ -32,18 +32,14 @@ export async function showInstructions(element: HTMLElement, station: Station): 
   const way = target.map((v, i) => v - start[i]);
   const size = Math.hypot(...way) || 1;
   const command = way.map((v) => (EXAMPLE * station.stick.limit * v) / size);
-  let shown = true;
-  const draw = (): void => {
-    arms.draw(q, { start, target });
-    velocities.draw(command);
-    if (shown) requestAnimationFrame(draw);
-  };
-  requestAnimationFrame(draw);
   const more = [
     ...(station.experiment.reach === null ? [] : ["instructions_reach"]),
     ...(views > 1 ? ["instructions_views"] : []),
   ];
-  await page(1, more, h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements));
-  shown = false;
+  const figure = h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements);
+  const read = page(1, more, figure);
+  arms.draw(q, start, target);
+  velocities.draw(command);
+  await read;
   await page(2, []);
 }

@@ -1,6 +1,6 @@
 /** Who takes part: a new subject, with the laboratory's code if there is one, or the one who was here before. */
 
-import { button, h, paragraphs } from "../dom";
+import { button, card, h } from "../dom";
 import type { Station } from "../station";
 import { sentence } from "../texts";
 
@@ -16,51 +16,36 @@ export function showJoin(element: HTMLElement, station: Station): Promise<void> 
       spellcheck: "false",
       pattern: "[A-Za-z0-9][A-Za-z0-9_-]*",
     });
+    const help = h("p", { class: "help" }, texts.get("join_code_help"));
+    const entry = h("div", { class: "question" }, h("label", { for: "code" }, texts.get("join_code")), code, help);
     const complaint = h("p", { class: "complaint", role: "alert", "data-testid": "join-refused" });
-    const join = (): void => {
-      const wanted = station.resumable ? null : code.value.trim() || null;
-      for (const b of buttons) b.disabled = true;
-      complaint.textContent = "";
-      station.join(wanted).then(resolve, (error: Error) => {
-        complaint.textContent = sentence(error.message);
-        if (station.resumable) station.forget();
-        show();
-      });
-    };
-    const other = (): void => {
+    let buttons: HTMLButtonElement[] = [];
+    const forget = (): void => {
       station.forget();
       show();
     };
-    let buttons: HTMLButtonElement[] = [];
+    const join = (): void => {
+      for (const b of buttons) b.disabled = true;
+      complaint.textContent = "";
+      station.join(station.resumable ? null : code.value.trim() || null).then(resolve, (error: Error) => {
+        complaint.textContent = sentence(error.message);
+        if (station.resumable) forget();
+        else show();
+      });
+    };
     const show = (): void => {
       const back = station.resumable;
-      const name = station.storage.kept?.subject ?? "";
-      buttons = back
-        ? [
-            button("continue", texts.get("join_continue"), join),
-            button("new-subject", texts.get("join_other"), other, "second"),
-          ]
-        : [button("join", texts.get("join_begin"), join)];
-      const entry = h(
-        "div",
-        { class: "question" },
-        h("label", { for: "code" }, texts.get("join_code")),
-        code,
-        h("p", { class: "help" }, texts.get("join_code_help")),
-      );
-      const body = h(
-        "form",
-        { class: "card", "data-testid": "join-screen" },
-        h("h1", {}, texts.get("join_title")),
-        h("div", { class: "prose" }, ...paragraphs(texts.get(back ? "join_back" : "join_text", { code: name }))),
-        back ? null : entry,
-        complaint,
-        h("div", { class: "buttons" }, ...buttons),
-      );
-      body.addEventListener("submit", (event) => {
+      const resume = button("continue", texts.get("join_continue"), join);
+      const other = button("new-subject", texts.get("join_other"), forget, "second");
+      buttons = back ? [resume, other] : [button("join", texts.get("join_begin"), join)];
+      const text = texts.get(back ? "join_back" : "join_text", { code: station.storage.kept?.subject ?? "" });
+      const properties = { class: "card", "data-testid": "join-screen" };
+      const choices = h("div", { class: "buttons" }, ...buttons);
+      const body = card("form", properties, texts.get("join_title"), text, back ? null : entry, complaint, choices);
+      body.onsubmit = (event): void => {
         event.preventDefault();
         join();
-      });
+      };
       element.replaceChildren(body);
       (back ? buttons[0] : code).focus();
     };

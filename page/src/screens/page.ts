@@ -1,6 +1,6 @@
 /** A page to read, with buttons. */
 
-import { button, h, paragraphs } from "../dom";
+import { button, card, h } from "../dom";
 import type { Station } from "../station";
 
 export interface Choice {
@@ -23,18 +23,10 @@ export interface Page {
 /** @returns which choice was made */
 export function showPage(element: HTMLElement, station: Station, page: Page): Promise<string> {
   return new Promise((resolve) => {
-    const buttons = page.choices.map((c, i) =>
-      button(c.testid, c.label, () => resolve(c.testid), i ? "second" : "primary"),
-    );
-    const card = h(
-      "section",
-      { class: page.figure ? "card wide with-figure" : "card", "data-testid": page.testid },
-      h("h1", {}, page.title),
-      h("div", { class: "prose" }, ...paragraphs(page.text)),
-      page.figure,
-      h("div", { class: "buttons" }, ...buttons),
-    );
-    element.replaceChildren(card);
+    const { testid, title, text, choices, figure } = page;
+    const buttons = choices.map((c, i) => button(c.testid, c.label, () => resolve(c.testid), i ? "second" : "primary"));
+    const properties = { class: figure ? "card wide with-figure" : "card", "data-testid": testid };
+    element.replaceChildren(card("section", properties, title, text, figure, h("div", { class: "buttons" }, ...buttons)));
     buttons[0]?.focus({ preventScroll: true });
     if (!page.last) station.auto(() => buttons[0]?.click());
   });

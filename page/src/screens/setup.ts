@@ -1,6 +1,6 @@
 /** Choose what holds the stick, see it move, and calibrate a gamepad. */
 
-import { button, h, paragraphs } from "../dom";
+import { button, card, h, option, setText } from "../dom";
 import type { Calibration } from "../input/calibration";
 import type { Device } from "../input/device";
 import { Pad, pads } from "../input/gamepad";
@@ -43,13 +43,7 @@ class Setup {
     this.deflection = new Float64Array(arm.axes);
     this.command = new Float64Array(arm.axes);
     this.inputs = KINDS.map((kind) => {
-      const input = h("input", {
-        type: "radio",
-        name: "device",
-        value: kind,
-        id: `device-${kind}`,
-        "data-testid": `device-${kind}`,
-      });
+      const input = h("input", { type: "radio", name: "device", value: kind, "data-testid": `device-${kind}` });
       input.addEventListener("change", () => {
         this.chosen = true;
         this.choose(kind);
@@ -57,43 +51,22 @@ class Setup {
       return input;
     });
     this.next = button("setup-continue", texts.get("setup_continue"), () => this.done());
-    this.calibrate = button("calibrate", texts.get("setup_calibrate"), () => this.calibrated(), "second");
+    this.calibrate = button("calibrate", texts.get("setup_calibrate"), () => (this.wizard = new Wizard(arm.axes)), "second");
   }
 
   show(): void {
-    const { texts } = this.station;
-    const options = KINDS.map((kind, i) =>
-      h(
-        "label",
-        { class: "option", for: `device-${kind}` },
-        this.inputs[i],
-        h(
-          "span",
-          {},
-          h("b", {}, texts.get(`device_${kind}`)),
-          h("small", {}, texts.get(`device_${kind}_help`)),
-          kind === "gamepad" ? this.found : null,
-        ),
-      ),
-    );
+    const { texts, experiment } = this.station;
+    const options = KINDS.map((kind, i) => {
+      const name = h("b", {}, texts.get(`device_${kind}`));
+      const help = h("small", {}, texts.get(`device_${kind}_help`));
+      return option(this.inputs[i], name, help, kind === "gamepad" ? this.found : null);
+    });
+    const trial = h("div", { class: "try", "data-views": experiment.views.length }, ...this.velocities.elements, this.how);
+    const columns = h("div", { class: "columns" }, h("div", { class: "options" }, ...options), trial);
+    const buttons = h("div", { class: "buttons" }, this.next, this.calibrate);
+    const properties = { class: "card wide setup", "data-testid": "setup" };
     this.element.replaceChildren(
-      h(
-        "section",
-        { class: "card wide setup", "data-testid": "setup" },
-        h("div", { class: "prose" }, h("h1", {}, texts.get("setup_title")), ...paragraphs(texts.get("setup_text"))),
-        h(
-          "div",
-          { class: "columns" },
-          h("div", { class: "options" }, ...options),
-          h(
-            "div",
-            { class: "try", "data-views": this.station.experiment.views.length },
-            ...this.velocities.elements,
-            this.how,
-          ),
-        ),
-        h("div", { class: "buttons" }, this.next, this.calibrate),
-      ),
+      card("section", properties, texts.get("setup_title"), texts.get("setup_text"), columns, buttons),
     );
     this.choose(pads().length ? "gamepad" : "pointer");
     this.next.focus({ preventScroll: true });
@@ -112,7 +85,8 @@ class Setup {
     this.wizard = null;
     this.inputs[KINDS.indexOf(kind)].checked = true;
     if (station.robot === null) {
-      station.device?.release();
+      station.device?.detach?.();
+      station.device?.release?.();
       station.device = this.device(kind);
     }
     this.velocities.attach(station);
@@ -127,7 +101,7 @@ class Setup {
     if (kind === "keys") return new Keys();
     const [pad] = pads();
     if (pad === undefined) return null;
-    const own = this.station.storage.device<Calibration>(pad.id);
+    const own = this.station.storage.read<Calibration>(`device.${pad.id}`);
     const axes = this.station.arm.axes;
     return new Pad(pad.id, axes, own !== null && own.axes.length === axes ? own : undefined);
   }
@@ -136,11 +110,10 @@ class Setup {
     const { station } = this;
     const { texts } = station;
     const [pad] = pads();
-    const seen = pad === undefined ? texts.get("gamepad_none") : texts.get("gamepad_found", { id: pad.id });
-    if (this.found.textContent !== seen) this.found.textContent = seen;
-    if (pad !== undefined && this.kind !== "gamepad" && !this.chosen) this.choose("gamepad");
-    if (pad !== undefined && this.kind === "gamepad" && station.device === null) this.choose("gamepad");
-    this.calibrate.disabled = station.device === null || station.device.lost();
+    setText(this.found, pad === undefined ? texts.get("gamepad_none") : texts.get("gamepad_found", { id: pad.id }));
+    const wanted = this.kind === "gamepad" ? station.device === null : !this.chosen;
+    if (pad !== undefined && wanted) this.choose("gamepad");
+    this.calibrate.disabled = station.device === null || station.device.lost?.() === true;
     this.next.disabled = this.wizard !== null || this.calibrate.disabled;
     if (this.wizard !== null && pad !== undefined) this.step(pad);
     if (station.device === null) this.deflection.fill(0);
@@ -149,24 +122,15 @@ class Setup {
     this.velocities.draw(this.command);
   }
 
-  private calibrated(): void {
-    this.wizard = new Wizard(this.station.arm.axes);
-  }
-
   private step(pad: Gamepad): void {
     const { station, wizard } = this;
     if (wizard === null || !(station.device instanceof Pad)) return;
-    const said = station.texts.get(
-      wizard.look(
-        pad.axes,
-        pad.buttons.map((b) => b.pressed),
-        performance.now() / 1000,
-      ),
-    );
-    if (this.how.textContent !== said) this.how.textContent = said;
+    const pressed = pad.buttons.map((b) => b.pressed);
+    const said = station.texts.get(wizard.look(pad.axes, pressed, performance.now() / 1000));
+    setText(this.how, said);
     if (wizard.result === null) return;
     station.device.calibration = wizard.result;
-    station.storage.keepDevice(pad.id, wizard.result);
+    station.storage.write(`device.${pad.id}`, wizard.result);
     this.wizard = null;
     this.how.textContent = station.texts.get("calibrate_done");
     this.next.disabled = false;

@@ -1,6 +1,6 @@
 /** One trial: wait for the trigger, steer, stop inside the circle. Broken off trials are done again at once. */
 
-import { button, h } from "../dom";
+import { button, h, setText } from "../dom";
 import { Run, type Ending, type Task } from "../run";
 import { Frames, type Schedule } from "../schedule";
 import type { Station } from "../station";
@@ -9,10 +9,8 @@ import { ArmWindows, VelocityWindows } from "./windows";
 export interface TrialSpec {
   title: string;
   task: Task;
-  /** What it is called in the records; null for practice, of which nothing is recorded. */
+  /** What it is called in the records; null for practice, which is not recorded and shows hints. */
   record: { kind: "training" | "trial"; position: number } | null;
-  /** Say what is to be done next. */
-  hints: boolean;
   /** Shown until it begins: how the last one went. */
   note: string;
 }
@@ -66,18 +64,11 @@ class Trial {
     this.velocities = new VelocityWindows(station);
     this.begin = button("start", texts.get("start"), () => this.begun());
     this.abort = button("abort", texts.get("abort"), () => (this.aborting = true), "second");
-    this.root = h(
-      "section",
-      { class: "trial", "data-testid": "trial", "data-views": station.experiment.views.length },
-      h("div", { class: "arms" }, ...this.arms.elements),
-      h(
-        "div",
-        { class: "side" },
-        ...this.velocities.elements,
-        this.message,
-        h("div", { class: "buttons" }, this.begin, this.abort),
-      ),
-    );
+    const arms = h("div", { class: "arms" }, ...this.arms.elements);
+    const buttons = h("div", { class: "buttons" }, this.begin, this.abort);
+    const side = h("div", { class: "side" }, ...this.velocities.elements, this.message, buttons);
+    const views = station.experiment.views.length;
+    this.root = h("section", { class: "trial", "data-testid": "trial", "data-views": views }, arms, side);
   }
 
   prepare(): void {
@@ -135,7 +126,8 @@ class Trial {
   private begun(): void {
     const { station, spec } = this;
     if (this.phase === "broken") return this.wait();
-    if (this.phase !== "waiting" || station.frame.isPaused || station.frame.isUnstored || station.device?.lost() || document.hidden) return;
+    const { isPaused, isUnstored } = station.frame;
+    if (this.phase !== "waiting" || isPaused || isUnstored || station.device?.lost?.() || document.hidden) return;
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
@@ -144,7 +136,7 @@ class Trial {
 
   private cycle(time: number): void {
     const { station, run, spec } = this;
-    if (station.device?.lost()) return this.breakOff("pad-lost");
+    if (station.device?.lost?.()) return this.breakOff("pad-lost");
     if (station.frame.isUnstored) return this.breakOff("unstored");
     station.device?.see?.({ cycle: run.cycles, x: run.x, target: spec.task.target });
     station.device?.read(this.deflection);
@@ -213,28 +205,27 @@ class Trial {
     const share = phase === "running" ? (station.clock.now - this.cycleAt) * station.experiment.rate : 1;
     const part = Math.max(0, Math.min(1, share));
     for (let i = 0; i < this.shown.length; i++) this.shown[i] = run.before[i] + part * (run.q[i] - run.before[i]);
-    this.arms.draw(this.shown, { start: this.start, target: spec.task.target });
+    this.arms.draw(this.shown, this.start, spec.task.target);
     if (phase === "broken" || phase === "over") this.deflection.fill(0);
     else station.device?.read(this.deflection);
     station.stick.velocity(this.deflection, this.command);
     this.velocities.draw(this.command);
-    if (phase === "running" && spec.hints) this.hint();
+    if (phase === "running" && spec.record === null) this.hint();
   }
 
   private watch(): void {
     const { station } = this;
-    const lost = station.device?.lost() === true;
+    const lost = station.device?.lost?.() === true;
     if (lost !== this.lost && this.phase === "waiting") {
       this.lost = lost;
       if (lost) station.event("pad-lost");
       this.message.textContent = lost ? station.texts.get("broken_pad-lost") : this.howToStart;
     }
-    if (station.device?.triggered()) this.begun();
+    if (station.device?.triggered?.()) this.begun();
   }
 
   private hint(): void {
-    const text = this.station.texts.get(this.run.inside ? "hint_inside" : "trial_running");
-    if (this.message.textContent !== text) this.message.textContent = text;
+    setText(this.message, this.station.texts.get(this.run.inside ? "hint_inside" : "trial_running"));
   }
 }
 

@@ -32,8 +32,8 @@ def format_messages() -> str:
     """Return the text of ``messages.ts``: an interface for each message, and the two unions."""
     parts = [
         _FILE_HEADER,
-        f"export const FORMAT = {messages.MESSAGE_FORMAT};\nexport const MOST_CYCLES = {messages.MOST_CYCLES}; // in one "
-        f"message\nexport const MOST_BYTES = {messages.MOST_BYTES}; // of one message\n",
+        f"export const FORMAT = {messages.MESSAGE_FORMAT};\n"
+        f"export const MOST_CYCLES = {messages.MOST_CYCLES}; // in one message\n",
         *(_format_interface(model) for model in (*_FROM_PAGE, *_PART_MODELS, *_FROM_SERVER)),
         f"export type FromPage = {' | '.join(union_member.__name__ for union_member in _FROM_PAGE)};\n",
         f"export type FromServer = {' | '.join(union_member.__name__ for union_member in _FROM_SERVER)};\n",
