@@ -38,7 +38,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
     (r"py:class", r"(np|numpy|xr|xarray|pd|pathlib|collections|types|concurrent|fractions|sqlite3)\..*"),
-    (r"py:class", r"ArrayLike|DataFrame|Figure|Fraction|Mapping\[str|NDArray"),
+    (r"py:class", r"ArrayLike|DataFrame|(matplotlib\.figure\.)?Figure|Fraction|Mapping\[str|NDArray"),
     # Names of types in annotations, which have no entry in the documentation.
     (r"py:class", r"(Float|Bool|Index)Array|P|holdfast\.core\.typing\.T|holdfast\.kernels\.disk_cache\.K"),
     (r"py:class", r"AccelerationsLike|Aim|Arcs|CellLike|CertifyOptions|Ending|FailureSpec|FaultRunOutcome|KeepLike"),
