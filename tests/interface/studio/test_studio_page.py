@@ -212,7 +212,7 @@ def test_an_object_is_moved_by_keys_until_the_arm_touches_it(visit):
         page = visit(page_server)
         finish(page)
         clearance = page.locator(".studio-clearance")
-        assert "ball" in clearance.inner_text()
+        page.locator(".studio-clearance", has_text="ball").wait_for()
         assert page.locator(".overlay-nearest").count() == 1
         select(page, "Move an object", "ball")
         handle = page.locator(".object-handle")
