@@ -7,6 +7,8 @@ Times are of headless Chromium: "paint" is the first contentful paint, and "read
 from __future__ import annotations
 
 import argparse
+import contextlib
+import io
 import json
 import re
 import statistics
@@ -15,8 +17,6 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-
-import harness
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))  # the browser of the tests
 
@@ -64,14 +64,16 @@ def write_pages(folder: Path) -> dict[str, Path]:
     scene, parts = (json.loads(text) for text in re.findall(r'<script type="application/json">(.*?)</script>', html)[:2])
     frames = arm.frames(np.array(scene["arms"][0]["q"][0]))
     ring = np.array([[np.cos(t), np.sin(t), 0.3 * np.cos(3 * t)] for t in np.linspace(0, 2 * np.pi, 20, endpoint=False)])
-    server = viser.ViserServer(port=0, verbose=False)
+    with contextlib.redirect_stdout(io.StringIO()):
+        server = viser.ViserServer(port=0, verbose=False)
     for k, part in enumerate(parts):
         start, end, radius = np.array(part["tube"][:3]), np.array(part["tube"][3:6]), part["tube"][6]
         corners = np.vstack([start + radius * ring, end + radius * ring])
         pose = frames[part["frame"]]
         server.scene.add_mesh_simple(f"/part{k}", corners @ pose[:3, :3].T + pose[:3, 3], ConvexHull(corners).simplices)
     pages["viser, as_html"].write_text(server.scene.as_html(), encoding="utf-8")
-    server.stop()
+    with contextlib.redirect_stdout(io.StringIO()):
+        server.stop()
     return pages
 
 
@@ -114,7 +116,7 @@ def main() -> None:
         for step in STEPS:
             median, late, script = measure_drag(browser, pages["holdfast"], step)
             print(f"| {step} | {median:.1f} | {late:.1f} | {script:.1f} |")
-    print(f"\n{LOADS} loads and {PICTURES} moves each; medians. {harness.environment()}")
+    print(f"\n{LOADS} loads and {PICTURES} moves each; medians.")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ Array = np.ndarray
 Function = Callable[[Array], Any]
 
 PACKAGES = (
-    "holdfast",
+    "holdfast-arms",
     "numpy",
     "scipy",
     "casadi",
