@@ -35,7 +35,12 @@ WORKLOADS = (
     "spectral",
     "memory",
 )
-KEPT = ("power cases", "side_by_side", "compile_times", "agreement_closed_loop")  # sections of programs that run_all.py does not run
+KEPT = (
+    "power cases",
+    "side_by_side",
+    "compile_times",
+    "agreement_closed_loop",
+)  # sections of programs that run_all.py does not run
 
 INTRODUCTION = """# Results
 
