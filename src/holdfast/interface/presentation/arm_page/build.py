@@ -129,7 +129,7 @@ def _join_page(
     style = read_template("viewer.css") + read_template("arm_page.css")
     scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
-        f"default-src 'none';{connect} script-src {' '.join(map(_digest, scripts))}; style-src-elem {_digest(style)}; "
+        f"default-src 'none';{connect} script-src {' '.join(map(_policy_digest, scripts))}; style-src-elem {_policy_digest(style)}; "
         "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
     )
     return Html(
@@ -144,7 +144,7 @@ def _join_page(
     )
 
 
-def _digest(text: str) -> str:
+def _policy_digest(text: str) -> str:
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 

@@ -194,7 +194,7 @@ def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked
     def errors_at(q: FloatArray) -> FloatArray:
         return np.asarray(targets[active] - arm.forward_kinematics(q)[:, :3, 3])
 
-    def rates(q: FloatArray, errors: FloatArray) -> FloatArray:
+    def command_rates(q: FloatArray, errors: FloatArray) -> FloatArray:
         distances = np.sqrt((errors * errors).sum(axis=1, keepdims=True))
         gains = np.minimum(_GAIN_PER_S, _SPEED_M_S / np.maximum(distances, 1e-12))
         return np.asarray(law.velocity(q, gains * errors @ rows.T) * moving)
@@ -212,7 +212,7 @@ def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked
         active, q, errors = active[is_moving], q[is_moving], errors[is_moving]
         if not len(active):
             break
-        slope_1 = rates(q, errors)
+        slope_1 = command_rates(q, errors)
         slope_2 = rates(x := q + _STEP_S / 2 * slope_1, errors_at(x))
         slope_3 = rates(x := q + _STEP_S / 2 * slope_2, errors_at(x))
         slope_4 = rates(x := q + _STEP_S * slope_3, errors_at(x))
