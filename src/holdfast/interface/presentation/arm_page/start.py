@@ -213,9 +213,9 @@ def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked
         if not len(active):
             break
         slope_1 = command_rates(q, errors)
-        slope_2 = rates(x := q + _STEP_S / 2 * slope_1, errors_at(x))
-        slope_3 = rates(x := q + _STEP_S / 2 * slope_2, errors_at(x))
-        slope_4 = rates(x := q + _STEP_S * slope_3, errors_at(x))
+        slope_2 = command_rates(x := q + _STEP_S / 2 * slope_1, errors_at(x))
+        slope_3 = command_rates(x := q + _STEP_S / 2 * slope_2, errors_at(x))
+        slope_4 = command_rates(x := q + _STEP_S * slope_3, errors_at(x))
         q = q + _STEP_S / 6 * (slope_1 + 2 * slope_2 + 2 * slope_3 + slope_4)
     return largest, has_arrived
 
