@@ -129,8 +129,8 @@ def _join_page(
     style = read_template("viewer.css") + read_template("arm_page.css")
     scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
-        f"default-src 'none';{connect} script-src {' '.join(map(_policy_digest, scripts))}; style-src-elem {_policy_digest(style)}; "
-        "style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+        f"default-src 'none';{connect} script-src {' '.join(map(_policy_digest, scripts))}; "
+        f"style-src-elem {_policy_digest(style)}; style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
     )
     return Html(
         '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
