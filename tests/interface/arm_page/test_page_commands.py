@@ -9,7 +9,6 @@ import shlex
 import numpy as np
 import pytest
 
-from conftest import CRANE
 from holdfast import arms
 from holdfast.interface.presentation.arm_page.build import build_page
 

@@ -130,7 +130,8 @@ def _join_page(
     scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
     policy = (
         f"default-src 'none';{connect} script-src {' '.join(map(_policy_digest, scripts))}; "
-        f"style-src-elem {_policy_digest(style)}; style-src-attr 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+        f"style-src-elem {_policy_digest(style)}; style-src-attr 'unsafe-inline'; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
     )
     return Html(
         '<!DOCTYPE html>\n<html lang="en" class="arm-html">\n<head>\n<meta charset="utf-8">\n'
