@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shlex
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from holdfast import arms
 from holdfast.interface.presentation.arm_page.build import build_page
 
 BRAKE_DELAY_MS = 150
+ARM_FILES = Path(__file__).parents[1] / "studio" / "arms"  # the commands of the crane name its file alone
 
 
 def numbers_in(text):
@@ -29,8 +31,8 @@ def shown(request, page_arm):
     """The page of an arm: a call of its numerics, its data, and the worst joint."""
     page = page_arm(request.param)
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(CRANE.parent)
-        arm = arms.load(CRANE.name if request.param == "crane" else request.param)
+        patch.chdir(ARM_FILES)
+        arm = arms.load("inspection-crane.urdf" if request.param == "crane" else request.param)
         html = build_page(arm).text
     block = re.search(r'class="arm-data"[^{]*(\{.*?)</script>', html, re.S)
     data = json.loads(block.group(1))
@@ -44,7 +46,7 @@ def shown(request, page_arm):
 def copied(shown, cli, capsys, monkeypatch):
     """``copied(step, **conditions)``: output of the shell lines and of the Python lines."""
     page, data, fractions = shown
-    monkeypatch.chdir(CRANE.parent)
+    monkeypatch.chdir(ARM_FILES)
 
     def run(step, conditions=()):
         joints = [dict(conditions).get(k, "healthy") for k in range(page.arm.n)]
