@@ -10,7 +10,7 @@ export function formatPercent(fraction: number): string {
   const percent = 100 * fraction;
   if (percent >= 9.95) return `${percent.toFixed(0)}\u00a0%`;
   if (percent >= 0.05) return `${percent.toFixed(1)}\u00a0%`;
-  return percent > 1e-7 ? "under\u00a00.1\u00a0%" : "0\u00a0%";
+  return percent > 1e-7 ? "<\u00a00.1\u00a0%" : "0\u00a0%";
 }
 
 /** A length in metres as centimetres, or as millimetres below 10 cm. */

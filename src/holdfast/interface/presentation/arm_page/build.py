@@ -237,7 +237,7 @@ def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, text
         f'<button type="button" data-condition="healthy" data-worst="{str(k == worst).lower()}" '
         f'style="--fraction:{fraction:.4f}">'
         f'<span class="bar-name">{escape(label)}</span><span class="bar-track"><i></i><b></b></span>'
-        f'<span class="bar-value">{format_percent(fraction)}</span>'
+        f'<span class="bar-value">{escape(format_percent(fraction))}</span>'
         f'<span class="bar-condition">{escape(texts["worst"]) if k == worst else ""}</span>'
         '<span class="visually-hidden"></span></button>'
         for k, (label, fraction) in enumerate(zip(labels, fractions, strict=True))

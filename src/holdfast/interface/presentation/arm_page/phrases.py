@@ -25,7 +25,7 @@ def format_percent(fraction: float) -> str:
         return f"{percent:.0f}\N{NO-BREAK SPACE}%"
     if percent >= 0.05:
         return f"{percent:.1f}\N{NO-BREAK SPACE}%"
-    return "under 0.1 %".replace(" ", "\N{NO-BREAK SPACE}") if percent > 1e-7 else "0\N{NO-BREAK SPACE}%"
+    return "< 0.1 %".replace(" ", "\N{NO-BREAK SPACE}") if percent > 1e-7 else "0\N{NO-BREAK SPACE}%"
 
 
 def label_joints(arm: Arm) -> list[str]:
