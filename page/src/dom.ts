@@ -44,6 +44,18 @@ export function paragraphs(text: string): HTMLParagraphElement[] {
     .map((part) => h("p", {}, part.trim()));
 }
 
+/** A menu with a label; `choose` is called with the index of the selected option. */
+export function createMenu(
+  label: string,
+  options: string[],
+  selected: number,
+  choose: (index: number) => void,
+): HTMLLabelElement {
+  const menu = h("select", {}, ...options.map((name, k) => h("option", { selected: k === selected }, name)));
+  menu.addEventListener("change", () => choose(menu.selectedIndex));
+  return h("label", {}, h("span", {}, label), menu);
+}
+
 /** A button with an id that tests and experimenters can rely on. */
 export function button(id: string, label: string, onclick: () => void, kind = "primary"): HTMLButtonElement {
   return h("button", { type: "button", class: kind, "data-testid": id, onclick }, label);

@@ -15,9 +15,13 @@ export interface PageState {
   brakeDelay: number;
 }
 
+/** Joints, from 0, with one of the conditions. */
+export const listJoints = (conditions: Condition[], ...chosen: Condition[]): number[] =>
+  conditions.flatMap((condition, joint) => (chosen.includes(condition) ? [joint] : []));
+
 export function writeAddress(state: PageState): string {
   const joints = (condition: Condition): string =>
-    state.conditions.flatMap((c, k) => (c === condition ? [k + 1] : [])).join(",");
+    listJoints(state.conditions, condition).map((joint) => joint + 1).join(",");
   const fields: Record<string, string> = {
     arm: state.arm,
     step: state.step,
@@ -26,7 +30,8 @@ export function writeAddress(state: PageState): string {
     free: joints("free"),
     brake: state.step === "power" ? String(state.brakeDelay) : "",
   };
-  return `#${Object.entries(fields).filter(([, text]) => text).map(([key, text]) => `${key}=${encodeURIComponent(text)}`).join("&")}`;
+  const filled = Object.entries(fields).filter(([, text]) => text);
+  return `#${filled.map(([key, text]) => `${key}=${encodeURIComponent(text)}`).join("&")}`;
 }
 
 /** Read a state; fields that are missing or do not fit the arm keep their defaults. */

@@ -7,7 +7,7 @@ import { findBody } from "../viewer/hulls";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
 import { View } from "../viewer/view";
-import { readAddress, writeAddress, type Condition, type PageState } from "./address";
+import { listJoints, readAddress, writeAddress, type Condition, type PageState } from "./address";
 import { ArmModel } from "./arm_model";
 import { Bars, nextCondition, type BarValues } from "./bars";
 import { reproduce, writeCommands, type Code } from "./commands";
@@ -89,7 +89,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   // ---- state -------------------------------------------------------------------------------------------------------
 
   get failed(): number[] {
-    return this.state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
+    return listJoints(this.state.conditions, "locked", "free");
   }
 
   /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */

@@ -4,7 +4,7 @@ import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
 import { addScaled, dotProduct, stepRungeKutta, vectorNorm } from "./small_matrices";
 
-const STEP_S = 0.02;
+export const CONTROL_STEP_S = 0.02;
 const DURATION_S = 12;
 /** Distance from the target at which the tool has arrived, and at which the motion ends, m. */
 const ARRIVAL_M = 0.01;
@@ -48,13 +48,13 @@ export function simulateControl(
   const motion: ControlledMotion = { time: [], configurations: [], trail: [], deviation: 0, arrivalTime: null };
   let state: Float64Array = Float64Array.from(q);
   const line = errorAt(state);
-  for (let step = 0; step <= DURATION_S / STEP_S && state.every(Number.isFinite); step++) {
+  for (let step = 0; step <= DURATION_S / CONTROL_STEP_S && state.every(Number.isFinite); step++) {
     const error = errorAt(state);
-    motion.time.push(step * STEP_S);
+    motion.time.push(step * CONTROL_STEP_S);
     motion.configurations.push(state);
     motion.trail.push(arm.toolPosition(state));
     motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
-    if (vectorNorm(error) <= ARRIVAL_M) motion.arrivalTime ??= step * STEP_S;
+    if (vectorNorm(error) <= ARRIVAL_M) motion.arrivalTime ??= step * CONTROL_STEP_S;
     if (vectorNorm(error) <= END_M) break;
     state = stepAcrossSlowdown(rates, state, (next) => vectorNorm(errorAt(next)) - settings.speed / settings.gain);
   }
@@ -67,11 +67,11 @@ function stepAcrossSlowdown(
   state: Float64Array,
   distanceToSlowdown: (state: Float64Array) => number,
 ): Float64Array {
-  const next = stepRungeKutta(derivative, state, STEP_S);
+  const next = stepRungeKutta(derivative, state, CONTROL_STEP_S);
   const [before, after] = [distanceToSlowdown(state), distanceToSlowdown(next)];
   if (before > 0 === after > 0) return next;
-  const first = (STEP_S * before) / (before - after);
-  return stepRungeKutta(derivative, stepRungeKutta(derivative, state, first), STEP_S - first);
+  const first = (CONTROL_STEP_S * before) / (before - after);
+  return stepRungeKutta(derivative, stepRungeKutta(derivative, state, first), CONTROL_STEP_S - first);
 }
 
 /** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */

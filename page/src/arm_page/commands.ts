@@ -2,7 +2,7 @@
 
 import { h } from "../dom";
 import type { Vector } from "../viewer/scene";
-import type { PageState } from "./address";
+import { listJoints, type PageState } from "./address";
 import type { ArmPageData } from "./data";
 
 interface Reproduction {
@@ -28,8 +28,8 @@ export function reproduce(data: ArmPageData, state: PageState, worst: number, ta
 function writeCode(data: ArmPageData, state: PageState, worst: number, target: Vector): Reproduction {
   const q = Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(", ");
   const numbers = `"${q.replace(/ /g, "")}"`;
-  const failed = state.conditions.flatMap((condition, joint) => (condition === "healthy" ? [] : [joint]));
-  const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
+  const failed = listJoints(state.conditions, "locked", "free");
+  const free = listJoints(state.conditions, "free");
   const python = (...lines: string[]): string =>
     ["import holdfast as hf", "", `arm = ${data.pythonArm}`, `q = [${q}]`, ...lines].join("\n");
   const measure = `hf.indices.relative_manipulability(arm, "${data.taskName}")`;

@@ -38,8 +38,9 @@ export interface Story {
   /** Proportional gain, 1/s, and the maximum speed of the tool, m/s. */
   gain: number;
   speed: number;
-  /** How many random motions were simulated, and the median deviation from the straight line: law 1, law 2, law 1 from the prepared start, m. */
+  /** Number of random motions that were simulated. */
   motions: number;
+  /** Median deviations from the straight line, m: law 1, law 2, and law 1 from the prepared start. */
   deviations: [number, number, number];
 }
 

@@ -8,7 +8,8 @@ import { addScaled, dotProduct, factorRows, findSingularValues, solveTransposed,
 const NO_PROJECTION = 1e-9;
 
 /** Return the relative manipulability (n) that remains if each joint locks, from 0 to 1. */
-export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array => new Float64Array(arm.nullSpace(q).map(vectorNorm));
+export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array =>
+  new Float64Array(arm.nullSpace(q).map(vectorNorm));
 
 /** Return the joint, from 0, with the smallest value. */
 export const worstJoint = (manipulability: Float64Array): number => manipulability.indexOf(Math.min(...manipulability));

@@ -38,6 +38,6 @@ export function drawSignals(watch: Watch, now: number, joints: string[], texts: 
       ...mark("alarm", alarm),
       createSvg("text", { x: 2, y: heightOf(1) - 3 }, "1"),
     );
-    return h("figure", {}, h("figcaption", {}, fillText(texts.studio_signal_title, { label })), svg as unknown as Node);
+    return h("figure", {}, h("figcaption", {}, fillText(texts.studio_signal_title, { label })), svg);
   });
 }

@@ -1,12 +1,13 @@
 /** The five steps of the story. Each one sets the joints, shows its controls, and adds to the picture. */
 
-import { createSvg, h } from "../dom";
+import { createMenu, createSvg, h } from "../dom";
 import { Player } from "../player";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Vector } from "../viewer/scene";
 import type { GhostColor } from "../viewer/view";
+import { listJoints } from "./address";
 import type { ArmPage } from "./arm_page";
-import { simulateControl, type ControlledMotion } from "./closed_loop";
+import { CONTROL_STEP_S, simulateControl, type ControlledMotion } from "./closed_loop";
 import { drawCurve } from "./curves";
 import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
 import { capitalise, fillText, formatAngle, formatLength, formatPercent } from "./phrases";
@@ -71,9 +72,7 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
 
   /** A menu with a label; `choose` is called with the index of the selected option. */
   protected menu(key: string, options: string[], selected: number, choose: (index: number) => void): HTMLLabelElement {
-    const menu = h("select", {}, ...options.map((name, k) => h("option", { selected: k === selected }, name)));
-    menu.addEventListener("change", () => choose(menu.selectedIndex));
-    return h("label", {}, h("span", {}, this.text(key)), menu);
+    return createMenu(this.text(key), options, selected, choose);
   }
 
   protected slider(key: string, max: number, step: number, value: number, input: (value: number) => void): HTMLInputElement {
@@ -81,6 +80,13 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
     slider.addEventListener("input", () => input(Number(slider.value)));
     return slider;
   }
+}
+
+/** An entry of a legend: a shape of 34 x 10, and what it means. */
+function createKey(shape: SVGElement, ...meaning: (Node | string)[]): HTMLElement {
+  const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
+  svg.append(shape);
+  return h("span", { class: "law-key" }, svg, ...meaning);
 }
 
 export class HealthyStep extends Step {
@@ -104,9 +110,8 @@ export class LockStep extends Step {
   enter(): void {
     if (this.page.failed.length === 0) this.page.setCondition(this.page.worst, "locked");
     const key = (style: string): Element => {
-      const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
-      svg.append(createSvg("ellipse", { class: `overlay-ellipsoid overlay-${style}`, cx: 17, cy: 5, rx: 15, ry: 4 }));
-      return h("span", { class: "law-key" }, svg as unknown as Node, this.text(`${style}_lock`));
+      const shape = createSvg("ellipse", { class: `overlay-ellipsoid overlay-${style}`, cx: 17, cy: 5, rx: 15, ry: 4 });
+      return createKey(shape, this.text(`${style}_lock`));
     };
     this.page.controls.replaceChildren(
       h("div", { class: "step-row" }, key("before"), key("after")),
@@ -249,10 +254,9 @@ export class UndetectedStep extends Step {
       this.page.setCondition(this.page.worst, "locked");
     }
     const key = (index: number, name: string): Element => {
-      const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
-      svg.append(createSvg("path", { class: `overlay-trail overlay-${TRAIL_STYLES[index]}`, d: "M1 5H33" }));
       this.deviations[index] = h("span");
-      return h("span", { class: "law-key" }, svg as unknown as Node, name, this.deviations[index]);
+      const shape = createSvg("path", { class: `overlay-trail overlay-${TRAIL_STYLES[index]}`, d: "M1 5H33" });
+      return createKey(shape, name, this.deviations[index]);
     };
     const laws = this.page.data.story?.laws ?? [];
     const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
@@ -300,7 +304,8 @@ export class UndetectedStep extends Step {
     const story = this.page.data.story;
     if (!story) return ["", ""];
     const [first, second, prepared] = story.deviations.map(formatLength);
-    const detail = this.text(story.motions ? "undetected_detail" : "undetected_given", { count: story.motions, first, second, prepared });
+    const key = story.motions ? "undetected_detail" : "undetected_given";
+    const detail = this.text(key, { count: story.motions, first, second, prepared });
     return [this.text("undetected", { joint: capitalise(this.page.failedNames()) }), detail];
   }
 
@@ -313,7 +318,7 @@ export class UndetectedStep extends Step {
   }
 
   private sample(motion: number): number {
-    return Math.min(Math.round(this.player.time / 0.02), this.motions[motion].time.length - 1);
+    return Math.min(Math.round(this.player.time / CONTROL_STEP_S), this.motions[motion].time.length - 1);
   }
 
   private at(motion: number): ArrayLike<number> {
@@ -351,7 +356,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
 
   update(): void {
     const { arm, state, data } = this.page;
-    const free = state.conditions.flatMap((condition, joint) => (condition === "free" ? [joint] : []));
+    const free = listJoints(state.conditions, "free");
     (this.joints.control as HTMLSelectElement).selectedIndex = free.length === 1 ? free[0] + 1 : 0;
     const falling = state.conditions.map((condition): number =>
       Number(free.length ? condition === "free" : condition === "healthy"));

@@ -1,6 +1,6 @@
 /** The page of the studio: the page of an arm, with what a local server computes for it. */
 
-import { h } from "../dom";
+import { createMenu, h } from "../dom";
 import { inverse, place, times } from "../viewer/algebra";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Part, Pose } from "../viewer/scene";
@@ -52,7 +52,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   private readonly cancelButton = h("button", { type: "button", onclick: () => this.cancel() }, this.data.texts.studio_cancel);
   private readonly work = h("div", { class: "step-row", hidden: true }, this.progress, this.cancelButton);
   private readonly clearance = h("p", { class: "view3d-note studio-clearance" });
-  private readonly weights = h("div", { class: "studio-weights" });
+  private readonly susceptibilityList = h("div", { class: "studio-susceptibilities" });
   private readonly targetHandle: PoseHandle = this.addHandle("target-handle", "studio_target_handle", {
     move: (pose) => this.setTarget(numbersFromPose(pose)),
   });
@@ -73,7 +73,8 @@ export class StudioPage extends ArmPage<StudioPageData> {
     const kinds = this.createMenu(texts.studio_susceptibility, studio.susceptibilities, this.studio.susceptibility, (kind) => {
       this.studio.susceptibility = kind;
     });
-    this.find(".arm-commands")?.before(h("details", {}, h("summary", {}, texts.studio_weights), kinds, this.weights));
+    const summary = h("summary", {}, texts.studio_susceptibilities);
+    this.find(".arm-commands")?.before(h("details", {}, summary, kinds, this.susceptibilityList));
     document.addEventListener("dragover", (event) => event.preventDefault());
     document.addEventListener("drop", (event) => {
       event.preventDefault();
@@ -110,12 +111,11 @@ export class StudioPage extends ArmPage<StudioPageData> {
   }
 
   createMenu(label: string, options: string[], selected: string, choose: (option: string) => void): HTMLLabelElement {
-    const menu = h("select", {}, ...options.map((name) => h("option", { selected: name === selected }, name)));
-    menu.addEventListener("change", () => {
-      choose(options[menu.selectedIndex]);
-      this.changeConditions(() => undefined);
-    });
-    return h("label", { class: "studio-menu" }, h("span", {}, label), menu);
+    const menu = createMenu(label, options, options.indexOf(selected), (index) =>
+      this.changeConditions(() => choose(options[index])),
+    );
+    menu.className = "studio-menu";
+    return menu;
   }
 
   protected override openStep(name: string): void {
@@ -219,7 +219,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
     this.clearance.textContent = clearance;
     this.clearance.classList.toggle("studio-error", nearest?.blocked ?? false);
     this.view.touchedObject = nearest?.blocked ? this.data.studio.objects.findIndex(({ name }) => name === nearest.name) : -1;
-    this.weights.replaceChildren(...this.listWeights(susceptibility));
+    this.susceptibilityList.replaceChildren(...this.listSusceptibilities(susceptibility));
     this.parts.showReading?.();
     this.showCode();
     this.draw();
@@ -244,7 +244,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   }
 
   /** Bars for joints that lose their torque. */
-  private listWeights(bars: JointBars | string): HTMLElement[] {
+  private listSusceptibilities(bars: JointBars | string): HTMLElement[] {
     if (typeof bars === "string") return [h("p", {}, bars)];
     const { fractions, texts } = scaleBars(bars);
     const rows = texts.map((text, k) => {
