@@ -15,7 +15,7 @@ from holdfast import __version__
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import LockedTargetClaim, TargetClaim
 from holdfast.certificates.kinds import Claim, find_claim_kind
-from holdfast.certificates.taylor import CertificateChain, rotation_to_axis
+from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verifier_parts.tree import Cell
 from holdfast.core.errors import InputError

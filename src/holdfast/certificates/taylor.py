@@ -65,12 +65,6 @@ class CertificateChain:
         return float(origin[2] + height * direction[2]), float(height)
 
 
-def rotation_to_axis(axis: FloatArray) -> FloatArray:
-    """Return the rotation (3, 3) from the frame of a joint in certificates, whose z axis is the joint's, to its own frame."""
-    perpendicular = np.linalg.svd(axis[None])[2][1]
-    return np.column_stack([perpendicular, np.cross(axis, perpendicular), axis])
-
-
 def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: BoolArray) -> FloatArray:
     """Return the lengths (k,), m, that each of some joints and the joints before it rotate, but the next joint does not.
 

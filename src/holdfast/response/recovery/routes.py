@@ -9,10 +9,14 @@ import numpy as np
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
+from holdfast.response.recovery.compiled.edges import RouteSearch
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 
 _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
+_COMPILED_ROUNDS = 20_000  # samples of a compiled search
+# Largest possible motion between checked configurations, and room in addition to what is required, m.
+_SEARCH_LEVELS = ((0.05, 2e-3), (0.02, 1e-3), (0.005, 0.0))
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
 _NODE_SPACING_STEPS = 5  # pieces of an extension from one node to the next
@@ -86,15 +90,20 @@ def find_route(
             break  # along constraints a search takes long, and the bound hardly limits the possible improvement
         if space.manifold is None and failure_count == max_failures:
             break
-        connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
-        closed_in.append(space.closed_in)
-        if all(closed_in[-2:]) and len(closed_in) > 1:
-            return None
+        compiled_search = space.compiled_search(metric)
+        if compiled_search is not None:
+            connection = _search_compiled(compiled_search, space, start, goals[closer_goals], rng)
+        else:
+            connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
+            closed_in.append(space.closed_in)
+            if all(closed_in[-2:]) and len(closed_in) > 1:
+                return None
         if connection is None:
             failure_count += not space.closed_in
             continue
         q, goal = connection
-        q = shorten_path(space, metric, q, rng)
+        if compiled_search is None:
+            q = shorten_path(space, metric, q, rng)
         new_length = float(metric.cumulative_length(q)[-1])
         if new_length < length:
             best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
@@ -122,6 +131,34 @@ def find_reachable_goals(
             break
         is_reached[np.flatnonzero(~is_reached)[route.goal]] = True
     return is_reached
+
+
+def _search_compiled(
+    search: RouteSearch, space: FreeSpace, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> tuple[FloatArray, int] | None:
+    """Return a short route from start (n,) to one of the goals (G, n) and the index of the goal, or None if none is proved.
+
+    A route is searched with some room to spare and few checks. If its proof fails, the next search has less room and more
+    checks.
+    """
+    assert space.edges is not None
+    for spacing, room in _SEARCH_LEVELS:
+        ends = np.concatenate([start[None], goals])
+        has_room = space.edges.check_edges(ends, np.zeros_like(ends), room)
+        if space.is_time_over or not (has_room[0] and has_room[1:].any()):
+            continue
+        seed = int(rng.integers(1 << 62))
+        connection = search.search(start, goals, seed, max_rounds=_COMPILED_ROUNDS, spacing=spacing, room=room)
+        if connection is None:
+            continue
+        q, goal = connection
+        q = np.where(space.free, q, start)
+        # The trees may meet a full revolution apart from the goal that was given.
+        q[0], q[-1] = start, q[-1] + space.shortest_difference(goals[goal], q[-1])
+        q[1:-1] = space.clip_to_limits(q[1:-1])
+        if space.are_segments_valid(q[:-1], q[1:]).all():
+            return q, goal
+    return None
 
 
 class _RouteTree:
