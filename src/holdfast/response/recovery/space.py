@@ -154,7 +154,7 @@ class FreeSpace:
         if self.manifold is not None and is_valid.any():
             is_valid[is_valid] = self.manifold.is_satisfied(q[is_valid])
         if self.clearance is not None and is_valid.any():
-            is_valid[is_valid] = self._clearance_margins(q[is_valid]).min(axis=1) >= 0
+            is_valid[is_valid] = np.asarray(self.clearance.margin_left(q[is_valid])) >= self.margin
         return is_valid
 
     def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
