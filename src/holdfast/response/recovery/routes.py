@@ -14,9 +14,8 @@ from holdfast.response.recovery.space import FreeSpace, JointMetric
 
 _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
-_COMPILED_ROUNDS = 20_000  # samples of a compiled search
-# Largest possible motion between checked configurations, and room in addition to what is required, m.
-_SEARCH_LEVELS = ((0.05, 2e-3), (0.02, 1e-3), (0.005, 0.0))
+# Largest possible motion between checked configurations and room in addition to what is required, m, and number of samples.
+_SEARCH_LEVELS = ((0.05, 2e-3, 5000), (0.02, 1e-3, 10_000), (0.005, 0.0, 10_000))
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
 _NODE_SPACING_STEPS = 5  # pieces of an extension from one node to the next
@@ -142,13 +141,13 @@ def _search_compiled(
     checks.
     """
     assert space.edges is not None
-    for spacing, room in _SEARCH_LEVELS:
+    for spacing, room, sample_count in _SEARCH_LEVELS:
         ends = np.concatenate([start[None], goals])
         has_room = space.edges.check_edges(ends, np.zeros_like(ends), room)
         if space.is_time_over or not (has_room[0] and has_room[1:].any()):
             continue
         seed = int(rng.integers(1 << 62))
-        connection = search.search(start, goals, seed, max_rounds=_COMPILED_ROUNDS, spacing=spacing, room=room)
+        connection = search.search(start, goals, seed, max_rounds=sample_count, spacing=spacing, room=room)
         if connection is None:
             continue
         q, goal = connection
