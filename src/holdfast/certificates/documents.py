@@ -20,6 +20,7 @@ from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verifier_parts.tree import Cell
 from holdfast.core.errors import InputError
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_to_axis
 from holdfast.model.arm.statics import links_with_payload
 
 Document = dict[str, Any]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_to_axis
 
 CENTER_UNIT = 2.0**-24  # rad: unit of stored centers
 _MAX_TEST_STEPS = 40  # steps of tests, each with several rounds

@@ -200,9 +200,7 @@ def _select_vector(condition: SX, a: Vector, b: Vector) -> Vector:
 
 
 @lru_cache(maxsize=64)
-def _share_kernel(
-    build: Callable[[ArmData, SphereCover], Kernel], arm: ArmData, spheres: SphereCover, _backend: str
-) -> Kernel:
+def _share_kernel(build: Callable[[ArmData, SphereCover], Kernel], arm: ArmData, spheres: SphereCover, _backend: str) -> Kernel:
     """Return the kernel of an arm and its spheres, one for all cells."""
     return build(arm, spheres)
 

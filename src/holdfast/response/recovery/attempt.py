@@ -249,9 +249,7 @@ class RecoveryAttempt:
             reason = f"at the goal {describe_doubtful_contact(space.clearance, target.q, recovery.margin)}"
             return replace(recovery, ending=RecoveryOutcome.NOTHING_FOUND, reason=reason, unknown=reason)
         if not len(goal.configurations):
-            reach_proofs = [
-                prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses
-            ]
+            reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
             goal = replace(goal, reach_proofs=tuple(reach_proofs), box_proofs=(None,) * len(reach_proofs))
         if None in goal.reach_proofs:
             q, pose_indices, proofs = enumerate_collision_free(recovery, self.search.solver, space, target.poses)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
 # Largest possible motion between checked configurations and room in addition to what is required, m, and number of samples.
 _SEARCH_LEVELS = ((0.05, 2e-3, 5000), (0.02, 1e-3, 10_000), (0.005, 0.0, 10_000))
+_FINAL_SHORTENING = (0.01, 2e-4, 200)  # the same two lengths, and shortcuts in a row that do not help
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
 _NODE_SPACING_STEPS = 5  # pieces of an extension from one node to the next
@@ -107,6 +108,10 @@ def find_route(
         if new_length < length:
             best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
     space.closed_in = ""
+    compiled_search = space.compiled_search(metric)
+    if best_route is not None and not best_route.straight and compiled_search is not None:
+        q = _shorten_compiled(compiled_search, space, best_route.q, rng)
+        best_route = replace(best_route, q=q, length=float(metric.cumulative_length(q)[-1]), straight=len(q) == 2)
     return best_route
 
 
@@ -151,13 +156,26 @@ def _search_compiled(
         if connection is None:
             continue
         q, goal = connection
-        q = np.where(space.free, q, start)
         # The trees may meet a full revolution apart from the goal that was given.
-        q[0], q[-1] = start, q[-1] + space.shortest_difference(goals[goal], q[-1])
-        q[1:-1] = space.clip_to_limits(q[1:-1])
+        q = _replace_ends(space, q, start, q[-1] + space.shortest_difference(goals[goal], q[-1]))
         if space.are_segments_valid(q[:-1], q[1:]).all():
             return q, goal
     return None
+
+
+def _shorten_compiled(search: RouteSearch, space: FreeSpace, q: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Return a shorter route between the ends of q (K, n), or ``q`` if none is proved."""
+    spacing, room, max_failures = _FINAL_SHORTENING
+    shorter = search.shorten(q, int(rng.integers(1 << 62)), max_failures=max_failures, spacing=spacing, room=room)
+    shorter = _replace_ends(space, shorter, q[0], q[-1])
+    return shorter if space.are_segments_valid(shorter[:-1], shorter[1:]).all() else q
+
+
+def _replace_ends(space: FreeSpace, q: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Return waypoints q (K, n) of single precision with exact ends, and exact values of the joints that do not move."""
+    exact = space.clip_to_limits(q)
+    exact[0], exact[-1] = first, last
+    return np.where(space.free, exact, first)
 
 
 class _RouteTree:

@@ -209,9 +209,7 @@ def recover(
     return _retry_with_exact_distances(run_attempt(clearance_model), run_attempt, relax)
 
 
-def _retry_with_exact_distances(
-    recovery: Recovery, search_again: Callable[[Clearance], Recovery], relax: bool
-) -> Recovery:
+def _retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clearance], Recovery], relax: bool) -> Recovery:
     """Return the recovery, or a better one from a second search with exact distances, as in narrow gaps.
 
     Exact distances change no proof about the start, the separation of start and goal, or the poses. So there is no second

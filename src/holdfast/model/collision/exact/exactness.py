@@ -68,7 +68,9 @@ class ExactQueries:
         if self.obstacles is not None:
             undecided = undecided[self._inner_distances.smallest_distance(q[undecided]) >= -CONTACT_DISTANCE_M]
         if undecided.size:
-            is_free[undecided] = ~self._contact_queries.check_contacts(q[undecided], self._distance_bounds(q[undecided], near=False))
+            is_free[undecided] = ~self._contact_queries.check_contacts(
+                q[undecided], self._distance_bounds(q[undecided], near=False)
+            )
         return is_free
 
     def check_pair_contact(self, q: FloatArray, pair: int) -> BoolArray:

@@ -124,7 +124,7 @@ class RouteSearch:
             has_largest_joint_metric,
             _MAX_NODES,
             0,
-            _MAX_SHORTCUT_FAILURES,
+            0,
             self._nodes.ctypes.data,
             self._parents.ctypes.data,
             _TREE_STEP * float(scale.max()),
@@ -146,7 +146,8 @@ class RouteSearch:
             room: Distance in addition to the required one, m.
         """
         problem, route, goal = self._problem, np.zeros((_MAX_WAYPOINTS, MAX_JOINTS), dtype=np.float32), c_int64(-1)
-        problem.max_rounds, problem.sample_spacing, problem.room = max_rounds, spacing, room
+        problem.max_rounds, problem.max_shortcut_failures = max_rounds, _MAX_SHORTCUT_FAILURES
+        problem.sample_spacing, problem.room = spacing, room
         start_row, goal_rows = _pad_rows(start[None]), _pad_rows(goals)
         count = self._edges.library.search_route(
             self._edges.single.address,
@@ -159,6 +160,24 @@ class RouteSearch:
             byref(goal),
         )
         return None if count <= 0 else (route[:count, : self._n].astype(np.float64), goal.value)
+
+    def shorten(self, q: FloatArray, seed: int, *, max_failures: int, spacing: float, room: float) -> FloatArray:
+        """Return the waypoints of a shorter route between the ends of ``q`` (K, n), whose edges are checked, not proved.
+
+        Args:
+            q: (K, n) waypoints of a route.
+            seed: Seed of the shortcuts.
+            max_failures: Number of shortcuts in a row that do not help, after which the route counts as short.
+            spacing: Largest possible motion between checked configurations, m.
+            room: Distance in addition to the required one, m.
+        """
+        if not 2 < len(q) <= _MAX_WAYPOINTS:
+            return q
+        problem, route = self._problem, np.zeros((_MAX_WAYPOINTS, MAX_JOINTS), dtype=np.float32)
+        problem.max_shortcut_failures, problem.sample_spacing, problem.room = max_failures, spacing, room
+        route[: len(q)] = _pad_rows(q)
+        count = self._edges.library.shorten(self._edges.single.address, addressof(problem), route.ctypes.data, len(q), seed)
+        return route[:count, : self._n].astype(np.float64)
 
 
 def _pad_rows(values: FloatArray) -> NDArray[np.float32]:

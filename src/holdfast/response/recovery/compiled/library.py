@@ -27,12 +27,11 @@ class RouteSearchLibrary:
     def __init__(self) -> None:
         self._code = LoadedCode(_load_object_code())
         self.check_edges = self._bind("check_edges", None, c_void_p, c_void_p, c_void_p, c_int64, c_float, c_float, c_void_p)
-        self.prove_edges = self._bind(
-            "prove_edges", None, c_void_p, c_void_p, c_void_p, c_void_p, c_int64, c_double, c_void_p
-        )
+        self.prove_edges = self._bind("prove_edges", None, c_void_p, c_void_p, c_void_p, c_void_p, c_int64, c_double, c_void_p)
         self.search_route = self._bind(
             "search_route", c_int64, c_void_p, c_void_p, c_void_p, c_void_p, c_int64, c_uint64, c_void_p, c_void_p
         )
+        self.shorten = self._bind("shorten", c_int64, c_void_p, c_void_p, c_void_p, c_int64, c_uint64)
 
     def _bind(self, name: str, result: Any, *arguments: Any) -> Any:
         return CFUNCTYPE(result, *arguments)(self._code.find_function(name))

@@ -561,4 +561,9 @@ Int search_route(const Scene<float> *scene, const Problem *problem, const Stored
   return count > 2 ? shorten_route(*scene, *problem, random, route, count) : count;
 }
 
+// Shorten a route (MAX_POINTS, 16) further, and return the number of its waypoints.
+Int shorten(const Scene<float> *scene, const Problem *problem, StoredRow *route, Int count, Bits seed) {
+  Random random = {seed};
+  return shorten_route(*scene, *problem, random, route, count);
+}
 }

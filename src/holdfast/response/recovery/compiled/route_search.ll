@@ -17,6 +17,7 @@
 %struct.Object.6 = type { [9 x double], [3 x double], [3 x double], double, double, double }
 %struct.Part.7 = type { [3 x double], [3 x double], double, double }
 %struct.Tree = type { ptr, ptr, i64 }
+%struct.Random = type { i64 }
 
 define void @check_edges(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, i64 noundef %3, float noundef %4, float noundef %5, ptr nocapture noundef writeonly %6) {
   %8 = icmp sgt i64 %3, 0
@@ -3055,931 +3056,972 @@ define i64 @search_route(ptr nocapture noundef readonly %0, ptr nocapture nounde
   %10 = alloca <16 x float>, align 64
   %11 = alloca <16 x float>, align 64
   %12 = alloca <16 x float>, align 64
-  %13 = alloca [256 x float], align 16
-  %14 = alloca float, align 4
-  %15 = alloca float, align 4
-  %16 = alloca i64, align 16
-  %17 = alloca i64, align 8
-  %18 = alloca <16 x float>, align 64
-  %19 = alloca <16 x float>, align 64
-  %20 = alloca <16 x float>, align 64
-  %21 = alloca <16 x float>, align 64
-  %22 = alloca <16 x float>, align 64
-  %23 = alloca <16 x float>, align 64
-  %24 = alloca [2 x %struct.Tree], align 16
-  %25 = load <16 x float>, ptr %2, align 4
-  call void @llvm.lifetime.start.p0(i64 48, ptr nonnull %24)
-  %26 = getelementptr inbounds i8, ptr %1, i64 64
-  %27 = load ptr, ptr %26, align 8
-  store ptr %27, ptr %24, align 16
-  %28 = getelementptr inbounds i8, ptr %24, i64 8
-  %29 = getelementptr inbounds i8, ptr %1, i64 72
-  %30 = load ptr, ptr %29, align 8
-  store ptr %30, ptr %28, align 8
-  %31 = getelementptr inbounds i8, ptr %24, i64 16
-  %32 = getelementptr inbounds i8, ptr %24, i64 24
-  %33 = getelementptr inbounds i8, ptr %1, i64 40
-  %34 = load i64, ptr %33, align 8
-  %35 = getelementptr inbounds <16 x float>, ptr %27, i64 %34
-  store ptr %35, ptr %32, align 8
-  %36 = getelementptr inbounds i8, ptr %24, i64 32
-  %37 = getelementptr inbounds i32, ptr %30, i64 %34
-  store ptr %37, ptr %36, align 16
-  %38 = getelementptr inbounds i8, ptr %24, i64 40
-  store i64 0, ptr %38, align 8
-  store <16 x float> %25, ptr %27, align 4
-  store i64 1, ptr %31, align 16
-  store i32 -1, ptr %30, align 4
-  %39 = icmp sgt i64 %4, 0
-  br i1 %39, label %57, label %41
+  %13 = alloca [2 x %struct.Tree], align 16
+  %14 = alloca %struct.Random, align 8
+  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %14)
+  store i64 %5, ptr %14, align 8
+  %15 = load <16 x float>, ptr %2, align 4
+  call void @llvm.lifetime.start.p0(i64 48, ptr nonnull %13)
+  %16 = getelementptr inbounds i8, ptr %1, i64 64
+  %17 = load ptr, ptr %16, align 8
+  store ptr %17, ptr %13, align 16
+  %18 = getelementptr inbounds i8, ptr %13, i64 8
+  %19 = getelementptr inbounds i8, ptr %1, i64 72
+  %20 = load ptr, ptr %19, align 8
+  store ptr %20, ptr %18, align 8
+  %21 = getelementptr inbounds i8, ptr %13, i64 16
+  %22 = getelementptr inbounds i8, ptr %13, i64 24
+  %23 = getelementptr inbounds i8, ptr %1, i64 40
+  %24 = load i64, ptr %23, align 8
+  %25 = getelementptr inbounds <16 x float>, ptr %17, i64 %24
+  store ptr %25, ptr %22, align 8
+  %26 = getelementptr inbounds i8, ptr %13, i64 32
+  %27 = getelementptr inbounds i32, ptr %20, i64 %24
+  store ptr %27, ptr %26, align 16
+  %28 = getelementptr inbounds i8, ptr %13, i64 40
+  store i64 0, ptr %28, align 8
+  store <16 x float> %15, ptr %17, align 4
+  store i64 1, ptr %21, align 16
+  store i32 -1, ptr %20, align 4
+  %29 = icmp sgt i64 %4, 0
+  br i1 %29, label %47, label %31
+
+30:
+  store i64 %4, ptr %28, align 8
+  br label %31
+
+31:
+  %32 = load ptr, ptr %1, align 8
+  %33 = load <16 x float>, ptr %32, align 4
+  %34 = getelementptr inbounds i8, ptr %1, i64 8
+  %35 = load ptr, ptr %34, align 8
+  %36 = load <16 x float>, ptr %35, align 4
+  %37 = getelementptr inbounds i8, ptr %1, i64 48
+  %38 = load i64, ptr %37, align 8
+  %39 = icmp sgt i64 %38, 0
+  br i1 %39, label %40, label %433
 
 40:
-  store i64 %4, ptr %38, align 8
-  br label %41
+  %41 = getelementptr inbounds i8, ptr %1, i64 24
+  %42 = getelementptr inbounds i8, ptr %1, i64 16
+  %43 = getelementptr inbounds i8, ptr %1, i64 32
+  %44 = getelementptr inbounds i8, ptr %1, i64 80
+  %45 = getelementptr inbounds i8, ptr %1, i64 84
+  %46 = getelementptr inbounds i8, ptr %1, i64 88
+  br label %55
 
-41:
-  %42 = load ptr, ptr %1, align 8
-  %43 = load <16 x float>, ptr %42, align 4
-  %44 = getelementptr inbounds i8, ptr %1, i64 8
-  %45 = load ptr, ptr %44, align 8
-  %46 = load <16 x float>, ptr %45, align 4
-  %47 = getelementptr inbounds i8, ptr %1, i64 48
-  %48 = load i64, ptr %47, align 8
-  %49 = icmp sgt i64 %48, 0
-  br i1 %49, label %50, label %443
+47:
+  %48 = phi i64 [ %52, %47 ], [ 0, %8 ]
+  %49 = getelementptr inbounds <16 x float>, ptr %3, i64 %48
+  %50 = load <16 x float>, ptr %49, align 4
+  %51 = getelementptr inbounds <16 x float>, ptr %25, i64 %48
+  store <16 x float> %50, ptr %51, align 4
+  %52 = add nuw nsw i64 %48, 1
+  %53 = getelementptr inbounds i32, ptr %27, i64 %48
+  store i32 -1, ptr %53, align 4
+  %54 = icmp eq i64 %52, %4
+  br i1 %54, label %30, label %47
 
-50:
-  %51 = getelementptr inbounds i8, ptr %1, i64 24
-  %52 = getelementptr inbounds i8, ptr %1, i64 16
-  %53 = getelementptr inbounds i8, ptr %1, i64 32
-  %54 = getelementptr inbounds i8, ptr %1, i64 80
-  %55 = getelementptr inbounds i8, ptr %1, i64 84
-  %56 = getelementptr inbounds i8, ptr %1, i64 88
-  br label %65
+55:
+  %56 = phi i64 [ %38, %40 ], [ %430, %429 ]
+  %57 = phi i64 [ %5, %40 ], [ %83, %429 ]
+  %58 = phi i64 [ 0, %40 ], [ %431, %429 ]
+  %59 = load i64, ptr %21, align 16
+  %60 = load i64, ptr %28, align 8
+  %61 = icmp sgt i64 %59, %60
+  %62 = zext i1 %61 to i64
+  %63 = getelementptr inbounds [2 x %struct.Tree], ptr %13, i64 0, i64 %62
+  %64 = xor i1 %61, true
+  %65 = zext i1 %64 to i64
+  %66 = getelementptr inbounds [2 x %struct.Tree], ptr %13, i64 0, i64 %65
+  %67 = getelementptr inbounds i8, ptr %63, i64 16
+  %68 = load i64, ptr %67, align 8
+  %69 = load i64, ptr %23, align 8
+  %70 = icmp slt i64 %68, %69
+  br i1 %70, label %71, label %433
 
-57:
-  %58 = phi i64 [ %62, %57 ], [ 0, %8 ]
-  %59 = getelementptr inbounds <16 x float>, ptr %3, i64 %58
-  %60 = load <16 x float>, ptr %59, align 4
-  %61 = getelementptr inbounds <16 x float>, ptr %35, i64 %58
-  store <16 x float> %60, ptr %61, align 4
-  %62 = add nuw nsw i64 %58, 1
-  %63 = getelementptr inbounds i32, ptr %37, i64 %58
-  store i32 -1, ptr %63, align 4
-  %64 = icmp eq i64 %62, %4
-  br i1 %64, label %40, label %57
+71:
+  %72 = getelementptr inbounds i8, ptr %66, i64 16
+  %73 = load i64, ptr %72, align 8
+  %74 = icmp slt i64 %73, %69
+  br i1 %74, label %75, label %433
 
-65:
-  %66 = phi i64 [ %48, %50 ], [ %440, %439 ]
-  %67 = phi i64 [ %5, %50 ], [ %93, %439 ]
-  %68 = phi i64 [ 0, %50 ], [ %441, %439 ]
-  %69 = load i64, ptr %31, align 16
-  %70 = load i64, ptr %38, align 8
-  %71 = icmp sgt i64 %69, %70
-  %72 = zext i1 %71 to i64
-  %73 = getelementptr inbounds [2 x %struct.Tree], ptr %24, i64 0, i64 %72
-  %74 = xor i1 %71, true
-  %75 = zext i1 %74 to i64
-  %76 = getelementptr inbounds [2 x %struct.Tree], ptr %24, i64 0, i64 %75
-  %77 = getelementptr inbounds i8, ptr %73, i64 16
-  %78 = load i64, ptr %77, align 8
-  %79 = load i64, ptr %33, align 8
-  %80 = icmp slt i64 %78, %79
-  br i1 %80, label %81, label %443
+75:
+  %76 = load i64, ptr %0, align 8
+  %77 = icmp sgt i64 %76, 0
+  br i1 %77, label %78, label %82
 
-81:
-  %82 = getelementptr inbounds i8, ptr %76, i64 16
-  %83 = load i64, ptr %82, align 8
-  %84 = icmp slt i64 %83, %79
-  br i1 %84, label %85, label %443
+78:
+  %79 = mul i64 %76, -7046029254386353131
+  br label %185
 
-85:
-  %86 = load i64, ptr %0, align 8
-  %87 = icmp sgt i64 %86, 0
-  br i1 %87, label %88, label %92
+80:
+  %81 = add i64 %79, %57
+  br label %82
 
-88:
-  %89 = mul i64 %86, -7046029254386353131
-  br label %195
+82:
+  %83 = phi i64 [ %57, %75 ], [ %81, %80 ]
+  %84 = phi <16 x float> [ %33, %75 ], [ %205, %80 ]
+  %85 = load ptr, ptr %63, align 8
+  %86 = load ptr, ptr %41, align 8
+  %87 = load <16 x float>, ptr %86, align 4
+  %88 = fcmp contract oeq <16 x float> %87, zeroinitializer
+  %89 = select contract <16 x i1> %88, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
+  %90 = fadd contract <16 x float> %87, %89
+  %91 = load ptr, ptr %42, align 8
+  %92 = load <16 x float>, ptr %91, align 4
+  %93 = icmp sgt i64 %68, 1
+  br i1 %93, label %94, label %149
 
-90:
-  %91 = add i64 %89, %67
-  br label %92
+94:
+  %95 = load <16 x float>, ptr %85, align 4
+  %96 = fsub contract <16 x float> %84, %95
+  %97 = fdiv contract <16 x float> %96, %90
+  %98 = fadd contract <16 x float> %97, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %99 = fadd contract <16 x float> %98, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %100 = fmul contract <16 x float> %87, %99
+  %101 = fsub contract <16 x float> %96, %100
+  %102 = fmul contract <16 x float> %92, %101
+  %103 = fmul contract <16 x float> %102, %102
+  %104 = shufflevector <16 x float> %103, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %105 = shufflevector <16 x float> %103, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %106 = fadd contract <8 x float> %104, %105
+  %107 = shufflevector <8 x float> %106, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %108 = shufflevector <8 x float> %106, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %109 = fadd contract <4 x float> %107, %108
+  %110 = shufflevector <4 x float> %109, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %111 = fadd contract <4 x float> %109, %110
+  %112 = shufflevector <4 x float> %109, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %113 = fadd contract <4 x float> %109, %112
+  %114 = shufflevector <4 x float> %113, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %115 = fadd contract <4 x float> %111, %114
+  %116 = extractelement <4 x float> %115, i64 0
+  br label %117
 
-92:
-  %93 = phi i64 [ %67, %85 ], [ %91, %90 ]
-  %94 = phi <16 x float> [ %43, %85 ], [ %215, %90 ]
-  %95 = load ptr, ptr %73, align 8
-  %96 = load ptr, ptr %51, align 8
-  %97 = load <16 x float>, ptr %96, align 4
-  %98 = fcmp contract oeq <16 x float> %97, zeroinitializer
-  %99 = select contract <16 x i1> %98, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
-  %100 = fadd contract <16 x float> %97, %99
-  %101 = load ptr, ptr %52, align 8
-  %102 = load <16 x float>, ptr %101, align 4
-  %103 = icmp sgt i64 %78, 1
-  br i1 %103, label %104, label %159
+117:
+  %118 = phi i64 [ %146, %117 ], [ 0, %94 ]
+  %119 = phi i64 [ %147, %117 ], [ 1, %94 ]
+  %120 = phi float [ %145, %117 ], [ %116, %94 ]
+  %121 = getelementptr inbounds <16 x float>, ptr %85, i64 %119
+  %122 = load <16 x float>, ptr %121, align 4
+  %123 = fsub contract <16 x float> %84, %122
+  %124 = fdiv contract <16 x float> %123, %90
+  %125 = fadd contract <16 x float> %124, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %126 = fadd contract <16 x float> %125, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %127 = fmul contract <16 x float> %87, %126
+  %128 = fsub contract <16 x float> %123, %127
+  %129 = fmul contract <16 x float> %92, %128
+  %130 = fmul contract <16 x float> %129, %129
+  %131 = shufflevector <16 x float> %130, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %132 = shufflevector <16 x float> %130, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %133 = fadd contract <8 x float> %131, %132
+  %134 = shufflevector <8 x float> %133, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %135 = shufflevector <8 x float> %133, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %136 = fadd contract <4 x float> %134, %135
+  %137 = shufflevector <4 x float> %136, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %138 = fadd contract <4 x float> %136, %137
+  %139 = shufflevector <4 x float> %136, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %140 = fadd contract <4 x float> %136, %139
+  %141 = shufflevector <4 x float> %140, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %142 = fadd contract <4 x float> %138, %141
+  %143 = extractelement <4 x float> %142, i64 0
+  %144 = fcmp contract olt float %143, %120
+  %145 = select i1 %144, float %143, float %120
+  %146 = select i1 %144, i64 %119, i64 %118
+  %147 = add nuw nsw i64 %119, 1
+  %148 = icmp eq i64 %147, %68
+  br i1 %148, label %149, label %117
 
-104:
-  %105 = load <16 x float>, ptr %95, align 4
-  %106 = fsub contract <16 x float> %94, %105
-  %107 = fdiv contract <16 x float> %106, %100
-  %108 = fadd contract <16 x float> %107, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %109 = fadd contract <16 x float> %108, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %110 = fmul contract <16 x float> %97, %109
-  %111 = fsub contract <16 x float> %106, %110
-  %112 = fmul contract <16 x float> %102, %111
-  %113 = fmul contract <16 x float> %112, %112
-  %114 = shufflevector <16 x float> %113, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %115 = shufflevector <16 x float> %113, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %116 = fadd contract <8 x float> %114, %115
-  %117 = shufflevector <8 x float> %116, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %118 = shufflevector <8 x float> %116, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %119 = fadd contract <4 x float> %117, %118
-  %120 = shufflevector <4 x float> %119, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %121 = fadd contract <4 x float> %119, %120
-  %122 = shufflevector <4 x float> %119, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %123 = fadd contract <4 x float> %119, %122
-  %124 = shufflevector <4 x float> %123, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %125 = fadd contract <4 x float> %121, %124
-  %126 = extractelement <4 x float> %125, i64 0
-  br label %127
+149:
+  %150 = phi i64 [ 0, %82 ], [ %146, %117 ]
+  %151 = getelementptr inbounds <16 x float>, ptr %85, i64 %150
+  %152 = load <16 x float>, ptr %151, align 4
+  %153 = fsub contract <16 x float> %84, %152
+  %154 = fdiv contract <16 x float> %153, %90
+  %155 = fadd contract <16 x float> %154, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %156 = fadd contract <16 x float> %155, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %157 = fmul contract <16 x float> %87, %156
+  %158 = fsub contract <16 x float> %153, %157
+  %159 = load i64, ptr %43, align 8
+  %160 = icmp eq i64 %159, 0
+  %161 = fmul contract <16 x float> %92, %158
+  br i1 %160, label %162, label %178
 
-127:
-  %128 = phi i64 [ %156, %127 ], [ 0, %104 ]
-  %129 = phi i64 [ %157, %127 ], [ 1, %104 ]
-  %130 = phi float [ %155, %127 ], [ %126, %104 ]
-  %131 = getelementptr inbounds <16 x float>, ptr %95, i64 %129
-  %132 = load <16 x float>, ptr %131, align 4
-  %133 = fsub contract <16 x float> %94, %132
-  %134 = fdiv contract <16 x float> %133, %100
-  %135 = fadd contract <16 x float> %134, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %136 = fadd contract <16 x float> %135, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %137 = fmul contract <16 x float> %97, %136
-  %138 = fsub contract <16 x float> %133, %137
-  %139 = fmul contract <16 x float> %102, %138
-  %140 = fmul contract <16 x float> %139, %139
-  %141 = shufflevector <16 x float> %140, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %142 = shufflevector <16 x float> %140, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %143 = fadd contract <8 x float> %141, %142
-  %144 = shufflevector <8 x float> %143, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %145 = shufflevector <8 x float> %143, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %146 = fadd contract <4 x float> %144, %145
-  %147 = shufflevector <4 x float> %146, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %148 = fadd contract <4 x float> %146, %147
-  %149 = shufflevector <4 x float> %146, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %150 = fadd contract <4 x float> %146, %149
-  %151 = shufflevector <4 x float> %150, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %152 = fadd contract <4 x float> %148, %151
-  %153 = extractelement <4 x float> %152, i64 0
-  %154 = fcmp contract olt float %153, %130
-  %155 = select i1 %154, float %153, float %130
-  %156 = select i1 %154, i64 %129, i64 %128
-  %157 = add nuw nsw i64 %129, 1
-  %158 = icmp eq i64 %157, %78
-  br i1 %158, label %159, label %127
+162:
+  %163 = fmul contract <16 x float> %161, %161
+  %164 = shufflevector <16 x float> %163, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %165 = shufflevector <16 x float> %163, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %166 = fadd contract <8 x float> %164, %165
+  %167 = shufflevector <8 x float> %166, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %168 = shufflevector <8 x float> %166, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %169 = fadd contract <4 x float> %167, %168
+  %170 = shufflevector <4 x float> %169, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %171 = fadd contract <4 x float> %169, %170
+  %172 = shufflevector <4 x float> %169, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %173 = fadd contract <4 x float> %169, %172
+  %174 = shufflevector <4 x float> %173, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %175 = fadd contract <4 x float> %171, %174
+  %176 = extractelement <4 x float> %175, i64 0
+  %177 = tail call contract float @llvm.sqrt.f32(float %176)
+  br label %181
 
-159:
-  %160 = phi i64 [ 0, %92 ], [ %156, %127 ]
-  %161 = getelementptr inbounds <16 x float>, ptr %95, i64 %160
-  %162 = load <16 x float>, ptr %161, align 4
-  %163 = fsub contract <16 x float> %94, %162
-  %164 = fdiv contract <16 x float> %163, %100
-  %165 = fadd contract <16 x float> %164, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %166 = fadd contract <16 x float> %165, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %167 = fmul contract <16 x float> %97, %166
-  %168 = fsub contract <16 x float> %163, %167
-  %169 = load i64, ptr %53, align 8
-  %170 = icmp eq i64 %169, 0
-  %171 = fmul contract <16 x float> %102, %168
-  br i1 %170, label %172, label %188
+178:
+  %179 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %161)
+  %180 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %179)
+  br label %181
 
-172:
-  %173 = fmul contract <16 x float> %171, %171
-  %174 = shufflevector <16 x float> %173, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %175 = shufflevector <16 x float> %173, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %176 = fadd contract <8 x float> %174, %175
-  %177 = shufflevector <8 x float> %176, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %178 = shufflevector <8 x float> %176, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %179 = fadd contract <4 x float> %177, %178
-  %180 = shufflevector <4 x float> %179, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %181 = fadd contract <4 x float> %179, %180
-  %182 = shufflevector <4 x float> %179, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %183 = fadd contract <4 x float> %179, %182
-  %184 = shufflevector <4 x float> %183, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %185 = fadd contract <4 x float> %181, %184
-  %186 = extractelement <4 x float> %185, i64 0
-  %187 = tail call contract float @llvm.sqrt.f32(float %186)
-  br label %191
+181:
+  %182 = phi float [ %180, %178 ], [ %177, %162 ]
+  %183 = load float, ptr %44, align 8
+  %184 = fcmp contract ogt float %182, %183
+  br i1 %184, label %208, label %213
 
-188:
-  %189 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %171)
-  %190 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %189)
-  br label %191
+185:
+  %186 = phi i64 [ %192, %185 ], [ %57, %78 ]
+  %187 = phi <16 x float> [ %205, %185 ], [ %33, %78 ]
+  %188 = phi i64 [ %206, %185 ], [ 0, %78 ]
+  %189 = extractelement <16 x float> %36, i64 %188
+  %190 = extractelement <16 x float> %33, i64 %188
+  %191 = fsub contract float %189, %190
+  %192 = add i64 %186, -7046029254386353131
+  %193 = lshr i64 %192, 30
+  %194 = xor i64 %193, %192
+  %195 = mul i64 %194, -4658895280553007687
+  %196 = lshr i64 %195, 27
+  %197 = xor i64 %196, %195
+  %198 = mul i64 %197, -7723592293110705685
+  %199 = lshr i64 %198, 40
+  %200 = uitofp nneg i64 %199 to float
+  %201 = fmul contract float %200, 0x3E70000000000000
+  %202 = fmul contract float %191, %201
+  %203 = extractelement <16 x float> %187, i64 %188
+  %204 = fadd contract float %203, %202
+  %205 = insertelement <16 x float> %187, float %204, i64 %188
+  %206 = add nuw nsw i64 %188, 1
+  %207 = icmp eq i64 %206, %76
+  br i1 %207, label %80, label %185
 
-191:
-  %192 = phi float [ %190, %188 ], [ %187, %172 ]
-  %193 = load float, ptr %54, align 8
-  %194 = fcmp contract ogt float %192, %193
-  br i1 %194, label %218, label %223
+208:
+  %209 = fdiv contract float %183, %182
+  %210 = insertelement <16 x float> poison, float %209, i64 0
+  %211 = shufflevector <16 x float> %210, <16 x float> poison, <16 x i32> zeroinitializer
+  %212 = fmul contract <16 x float> %158, %211
+  br label %213
 
-195:
-  %196 = phi i64 [ %202, %195 ], [ %67, %88 ]
-  %197 = phi <16 x float> [ %215, %195 ], [ %43, %88 ]
-  %198 = phi i64 [ %216, %195 ], [ 0, %88 ]
-  %199 = extractelement <16 x float> %46, i64 %198
-  %200 = extractelement <16 x float> %43, i64 %198
-  %201 = fsub contract float %199, %200
-  %202 = add i64 %196, -7046029254386353131
-  %203 = lshr i64 %202, 30
-  %204 = xor i64 %203, %202
-  %205 = mul i64 %204, -4658895280553007687
-  %206 = lshr i64 %205, 27
-  %207 = xor i64 %206, %205
-  %208 = mul i64 %207, -7723592293110705685
-  %209 = lshr i64 %208, 40
-  %210 = uitofp nneg i64 %209 to float
-  %211 = fmul contract float %210, 0x3E70000000000000
-  %212 = fmul contract float %201, %211
-  %213 = extractelement <16 x float> %197, i64 %198
-  %214 = fadd contract float %213, %212
-  %215 = insertelement <16 x float> %197, float %214, i64 %198
-  %216 = add nuw nsw i64 %198, 1
-  %217 = icmp eq i64 %216, %86
-  br i1 %217, label %90, label %195
+213:
+  %214 = phi <16 x float> [ %212, %208 ], [ %158, %181 ]
+  %215 = fcmp contract oeq float %182, 0.000000e+00
+  br i1 %215, label %429, label %216
 
-218:
-  %219 = fdiv contract float %193, %192
-  %220 = insertelement <16 x float> poison, float %219, i64 0
-  %221 = shufflevector <16 x float> %220, <16 x float> poison, <16 x i32> zeroinitializer
-  %222 = fmul contract <16 x float> %168, %221
-  br label %223
-
-223:
-  %224 = phi <16 x float> [ %222, %218 ], [ %168, %191 ]
-  %225 = fcmp contract oeq float %192, 0.000000e+00
-  br i1 %225, label %439, label %226
-
-226:
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %20)
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %21)
-  store <16 x float> %162, ptr %20, align 64
-  store <16 x float> %224, ptr %21, align 64
-  %227 = load float, ptr %55, align 4
-  %228 = load float, ptr %56, align 8
-  %229 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %20, ptr noundef nonnull %21, float noundef %227, float noundef %228)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %20)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %21)
-  br i1 %229, label %230, label %439
-
-230:
-  %231 = fadd contract <16 x float> %162, %224
-  %232 = getelementptr inbounds <16 x float>, ptr %95, i64 %78
-  store <16 x float> %231, ptr %232, align 4
-  %233 = trunc i64 %160 to i32
-  %234 = getelementptr inbounds i8, ptr %73, i64 8
-  %235 = load ptr, ptr %234, align 8
-  %236 = add nsw i64 %78, 1
-  store i64 %236, ptr %77, align 8
-  %237 = getelementptr inbounds i32, ptr %235, i64 %78
-  store i32 %233, ptr %237, align 4
-  %238 = getelementptr <16 x float>, ptr %95, i64 %236
-  %239 = getelementptr i8, ptr %238, i64 -64
-  %240 = load <16 x float>, ptr %239, align 4
-  %241 = load ptr, ptr %76, align 8
-  %242 = load ptr, ptr %51, align 8
-  %243 = load <16 x float>, ptr %242, align 4
-  %244 = fcmp contract oeq <16 x float> %243, zeroinitializer
-  %245 = select contract <16 x i1> %244, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
-  %246 = fadd contract <16 x float> %243, %245
-  %247 = load ptr, ptr %52, align 8
-  %248 = load <16 x float>, ptr %247, align 4
-  %249 = icmp sgt i64 %83, 1
-  br i1 %249, label %250, label %305
-
-250:
-  %251 = load <16 x float>, ptr %241, align 4
-  %252 = fsub contract <16 x float> %240, %251
-  %253 = fdiv contract <16 x float> %252, %246
-  %254 = fadd contract <16 x float> %253, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %255 = fadd contract <16 x float> %254, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %256 = fmul contract <16 x float> %243, %255
-  %257 = fsub contract <16 x float> %252, %256
-  %258 = fmul contract <16 x float> %248, %257
-  %259 = fmul contract <16 x float> %258, %258
-  %260 = shufflevector <16 x float> %259, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %261 = shufflevector <16 x float> %259, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %262 = fadd contract <8 x float> %260, %261
-  %263 = shufflevector <8 x float> %262, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %264 = shufflevector <8 x float> %262, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %265 = fadd contract <4 x float> %263, %264
-  %266 = shufflevector <4 x float> %265, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %267 = fadd contract <4 x float> %265, %266
-  %268 = shufflevector <4 x float> %265, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %269 = fadd contract <4 x float> %265, %268
-  %270 = shufflevector <4 x float> %269, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %271 = fadd contract <4 x float> %267, %270
-  %272 = extractelement <4 x float> %271, i64 0
-  br label %273
-
-273:
-  %274 = phi i64 [ %302, %273 ], [ 0, %250 ]
-  %275 = phi i64 [ %303, %273 ], [ 1, %250 ]
-  %276 = phi float [ %301, %273 ], [ %272, %250 ]
-  %277 = getelementptr inbounds <16 x float>, ptr %241, i64 %275
-  %278 = load <16 x float>, ptr %277, align 4
-  %279 = fsub contract <16 x float> %240, %278
-  %280 = fdiv contract <16 x float> %279, %246
-  %281 = fadd contract <16 x float> %280, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %282 = fadd contract <16 x float> %281, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %283 = fmul contract <16 x float> %243, %282
-  %284 = fsub contract <16 x float> %279, %283
-  %285 = fmul contract <16 x float> %248, %284
-  %286 = fmul contract <16 x float> %285, %285
-  %287 = shufflevector <16 x float> %286, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %288 = shufflevector <16 x float> %286, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %289 = fadd contract <8 x float> %287, %288
-  %290 = shufflevector <8 x float> %289, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %291 = shufflevector <8 x float> %289, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %292 = fadd contract <4 x float> %290, %291
-  %293 = shufflevector <4 x float> %292, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %294 = fadd contract <4 x float> %292, %293
-  %295 = shufflevector <4 x float> %292, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %296 = fadd contract <4 x float> %292, %295
-  %297 = shufflevector <4 x float> %296, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %298 = fadd contract <4 x float> %294, %297
-  %299 = extractelement <4 x float> %298, i64 0
-  %300 = fcmp contract olt float %299, %276
-  %301 = select i1 %300, float %299, float %276
-  %302 = select i1 %300, i64 %275, i64 %274
-  %303 = add nuw nsw i64 %275, 1
-  %304 = icmp eq i64 %303, %83
-  br i1 %304, label %305, label %273
-
-305:
-  %306 = phi i64 [ 0, %230 ], [ %302, %273 ]
-  %307 = getelementptr inbounds i8, ptr %76, i64 8
-  br label %308
-
-308:
-  %309 = phi i64 [ %83, %305 ], [ %435, %434 ]
-  %310 = phi i64 [ %306, %305 ], [ %436, %434 ]
-  %311 = getelementptr inbounds <16 x float>, ptr %241, i64 %310
-  %312 = load <16 x float>, ptr %311, align 4
-  %313 = fsub contract <16 x float> %240, %312
-  %314 = load ptr, ptr %51, align 8
-  %315 = load <16 x float>, ptr %314, align 4
-  %316 = fcmp contract oeq <16 x float> %315, zeroinitializer
-  %317 = select contract <16 x i1> %316, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
-  %318 = fadd contract <16 x float> %315, %317
-  %319 = fdiv contract <16 x float> %313, %318
-  %320 = fadd contract <16 x float> %319, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %321 = fadd contract <16 x float> %320, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %322 = fmul contract <16 x float> %315, %321
-  %323 = fsub contract <16 x float> %313, %322
-  %324 = load i64, ptr %53, align 8
-  %325 = icmp eq i64 %324, 0
-  %326 = load ptr, ptr %52, align 8
-  %327 = load <16 x float>, ptr %326, align 4
-  %328 = fmul contract <16 x float> %327, %323
-  br i1 %325, label %329, label %345
-
-329:
-  %330 = fmul contract <16 x float> %328, %328
-  %331 = shufflevector <16 x float> %330, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %332 = shufflevector <16 x float> %330, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %333 = fadd contract <8 x float> %331, %332
-  %334 = shufflevector <8 x float> %333, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %335 = shufflevector <8 x float> %333, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %336 = fadd contract <4 x float> %334, %335
-  %337 = shufflevector <4 x float> %336, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %338 = fadd contract <4 x float> %336, %337
-  %339 = shufflevector <4 x float> %336, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %340 = fadd contract <4 x float> %336, %339
-  %341 = shufflevector <4 x float> %340, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %342 = fadd contract <4 x float> %338, %341
-  %343 = extractelement <4 x float> %342, i64 0
-  %344 = tail call contract float @llvm.sqrt.f32(float %343)
-  br label %348
-
-345:
-  %346 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %328)
-  %347 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %346)
-  br label %348
-
-348:
-  %349 = phi float [ %347, %345 ], [ %344, %329 ]
-  %350 = load float, ptr %54, align 8
-  %351 = fcmp contract ugt float %349, %350
-  br i1 %351, label %352, label %357
-
-352:
-  %353 = fdiv contract float %350, %349
-  %354 = insertelement <16 x float> poison, float %353, i64 0
-  %355 = shufflevector <16 x float> %354, <16 x float> poison, <16 x i32> zeroinitializer
-  %356 = fmul contract <16 x float> %323, %355
-  br label %357
-
-357:
-  %358 = phi <16 x float> [ %323, %348 ], [ %356, %352 ]
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %22)
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %23)
-  store <16 x float> %312, ptr %22, align 64
-  store <16 x float> %358, ptr %23, align 64
-  %359 = load float, ptr %55, align 4
-  %360 = load float, ptr %56, align 8
-  %361 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %22, ptr noundef nonnull %23, float noundef %359, float noundef %360)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %22)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %23)
-  br i1 %361, label %362, label %437
-
-362:
-  br i1 %351, label %424, label %363
-
-363:
-  %364 = select i1 %71, i64 %310, i64 %78
-  %365 = select i1 %71, i64 %78, i64 %310
-  %366 = icmp slt i64 %364, 0
-  br i1 %366, label %385, label %372
-
-367:
-  %368 = lshr i64 %379, 1
-  %369 = icmp eq i64 %374, 0
-  br i1 %369, label %385, label %370
-
-370:
-  %371 = getelementptr <16 x float>, ptr %6, i64 %379
-  br label %388
-
-372:
-  %373 = phi i64 [ %383, %376 ], [ %364, %363 ]
-  %374 = phi i64 [ %379, %376 ], [ 0, %363 ]
-  %375 = icmp eq i64 %374, 256
-  br i1 %375, label %443, label %376
-
-376:
-  %377 = getelementptr inbounds <16 x float>, ptr %27, i64 %373
-  %378 = load <16 x float>, ptr %377, align 4
-  %379 = add nuw nsw i64 %374, 1
-  %380 = getelementptr inbounds <16 x float>, ptr %6, i64 %374
-  store <16 x float> %378, ptr %380, align 4
-  %381 = getelementptr inbounds i32, ptr %30, i64 %373
-  %382 = load i32, ptr %381, align 4
-  %383 = zext nneg i32 %382 to i64
-  %384 = icmp slt i32 %382, 0
-  br i1 %384, label %367, label %372
-
-385:
-  %386 = phi i64 [ 1, %367 ], [ 0, %363 ], [ %379, %388 ]
-  %387 = icmp slt i64 %365, 0
-  br i1 %387, label %445, label %397
-
-388:
-  %389 = phi i64 [ 0, %370 ], [ %395, %388 ]
-  %390 = xor i64 %389, -1
-  %391 = getelementptr <16 x float>, ptr %371, i64 %390
-  %392 = load <16 x float>, ptr %391, align 4
-  %393 = getelementptr inbounds <16 x float>, ptr %6, i64 %389
-  %394 = load <16 x float>, ptr %393, align 4
-  store <16 x float> %394, ptr %391, align 4
-  store <16 x float> %392, ptr %393, align 4
-  %395 = add nuw nsw i64 %389, 1
-  %396 = icmp eq i64 %395, %368
-  br i1 %396, label %385, label %388
-
-397:
-  %398 = phi i64 [ %422, %401 ], [ %365, %385 ]
-  %399 = phi i64 [ %419, %401 ], [ %386, %385 ]
-  store i64 %398, ptr %7, align 8
-  %400 = icmp eq i64 %399, 256
-  br i1 %400, label %434, label %401
-
-401:
-  %402 = getelementptr <16 x float>, ptr %6, i64 %399
-  %403 = getelementptr i8, ptr %402, i64 -64
-  %404 = load <16 x float>, ptr %403, align 4
-  %405 = getelementptr inbounds <16 x float>, ptr %35, i64 %398
-  %406 = load <16 x float>, ptr %405, align 4
-  %407 = fsub contract <16 x float> %406, %404
-  %408 = load ptr, ptr %51, align 8
-  %409 = load <16 x float>, ptr %408, align 4
-  %410 = fcmp contract oeq <16 x float> %409, zeroinitializer
-  %411 = select contract <16 x i1> %410, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
-  %412 = fadd contract <16 x float> %409, %411
-  %413 = fdiv contract <16 x float> %407, %412
-  %414 = fadd contract <16 x float> %413, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %415 = fadd contract <16 x float> %414, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %416 = fmul contract <16 x float> %409, %415
-  %417 = fsub contract <16 x float> %407, %416
-  %418 = fadd contract <16 x float> %404, %417
-  store <16 x float> %418, ptr %402, align 4
-  %419 = add nuw nsw i64 %399, 1
-  %420 = getelementptr inbounds i32, ptr %37, i64 %398
-  %421 = load i32, ptr %420, align 4
-  %422 = zext nneg i32 %421 to i64
-  %423 = icmp slt i32 %421, 0
-  br i1 %423, label %445, label %397
-
-424:
-  %425 = load i64, ptr %33, align 8
-  %426 = icmp slt i64 %309, %425
-  br i1 %426, label %427, label %437
-
-427:
-  %428 = fadd contract <16 x float> %312, %358
-  %429 = getelementptr inbounds <16 x float>, ptr %241, i64 %309
-  store <16 x float> %428, ptr %429, align 4
-  %430 = trunc i64 %310 to i32
-  %431 = load ptr, ptr %307, align 8
-  %432 = add nsw i64 %309, 1
-  store i64 %432, ptr %82, align 8
-  %433 = getelementptr inbounds i32, ptr %431, i64 %309
-  store i32 %430, ptr %433, align 4
-  br label %434
-
-434:
-  %435 = phi i64 [ %432, %427 ], [ %309, %397 ]
-  %436 = phi i64 [ %309, %427 ], [ %310, %397 ]
-  br i1 %351, label %308, label %443
-
-437:
-  %438 = load i64, ptr %47, align 8
-  br label %439
-
-439:
-  %440 = phi i64 [ %438, %437 ], [ %66, %226 ], [ %66, %223 ]
-  %441 = add nuw nsw i64 %68, 1
-  %442 = icmp slt i64 %441, %440
-  br i1 %442, label %65, label %443
-
-443:
-  %444 = phi i64 [ 0, %41 ], [ -1, %372 ], [ -1, %434 ], [ 0, %439 ], [ 0, %81 ], [ 0, %65 ]
-  call void @llvm.lifetime.end.p0(i64 48, ptr nonnull %24)
-  br label %687
-
-445:
-  %446 = phi i64 [ %419, %401 ], [ %386, %385 ]
-  call void @llvm.lifetime.end.p0(i64 48, ptr nonnull %24)
-  %447 = icmp sgt i64 %446, 2
-  br i1 %447, label %448, label %687
-
-448:
-  call void @llvm.lifetime.start.p0(i64 1024, ptr nonnull %13)
-  br label %449
-
-449:
-  %450 = phi i64 [ %446, %448 ], [ %489, %488 ]
-  %451 = phi i64 [ 0, %448 ], [ %452, %488 ]
-  %452 = add nuw nsw i64 %451, 1
-  %453 = getelementptr inbounds <16 x float>, ptr %6, i64 %451
-  %454 = load float, ptr %55, align 4
-  %455 = load float, ptr %56, align 8
-  br label %462
-
-456:
-  %457 = getelementptr inbounds i8, ptr %1, i64 56
-  %458 = icmp sgt i64 %489, 2
-  %459 = load i64, ptr %457, align 8
-  %460 = icmp sgt i64 %459, 0
-  %461 = select i1 %458, i1 %460, i1 false
-  br i1 %461, label %492, label %685
-
-462:
-  %463 = phi i64 [ %464, %466 ], [ %450, %449 ]
-  %464 = add nsw i64 %463, -1
-  %465 = icmp sgt i64 %464, %452
-  br i1 %465, label %466, label %488
-
-466:
-  %467 = load <16 x float>, ptr %453, align 4
-  %468 = getelementptr inbounds <16 x float>, ptr %6, i64 %464
-  %469 = load <16 x float>, ptr %468, align 4
-  %470 = fsub contract <16 x float> %469, %467
+216:
   call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %9)
   call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %10)
-  store <16 x float> %467, ptr %9, align 64
-  store <16 x float> %470, ptr %10, align 64
-  %471 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %9, ptr noundef nonnull %10, float noundef %454, float noundef %455)
+  store <16 x float> %152, ptr %9, align 64
+  store <16 x float> %214, ptr %10, align 64
+  %217 = load float, ptr %45, align 4
+  %218 = load float, ptr %46, align 8
+  %219 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %9, ptr noundef nonnull %10, float noundef %217, float noundef %218)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %9)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %10)
-  br i1 %471, label %472, label %462
+  br i1 %219, label %220, label %429
 
-472:
-  %473 = sub i64 1, %463
-  %474 = icmp sgt i64 %463, %450
-  br i1 %474, label %478, label %475
+220:
+  %221 = fadd contract <16 x float> %152, %214
+  %222 = getelementptr inbounds <16 x float>, ptr %85, i64 %68
+  store <16 x float> %221, ptr %222, align 4
+  %223 = trunc i64 %150 to i32
+  %224 = getelementptr inbounds i8, ptr %63, i64 8
+  %225 = load ptr, ptr %224, align 8
+  %226 = add nsw i64 %68, 1
+  store i64 %226, ptr %67, align 8
+  %227 = getelementptr inbounds i32, ptr %225, i64 %68
+  store i32 %223, ptr %227, align 4
+  %228 = getelementptr <16 x float>, ptr %85, i64 %226
+  %229 = getelementptr i8, ptr %228, i64 -64
+  %230 = load <16 x float>, ptr %229, align 4
+  %231 = load ptr, ptr %66, align 8
+  %232 = load ptr, ptr %41, align 8
+  %233 = load <16 x float>, ptr %232, align 4
+  %234 = fcmp contract oeq <16 x float> %233, zeroinitializer
+  %235 = select contract <16 x i1> %234, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
+  %236 = fadd contract <16 x float> %233, %235
+  %237 = load ptr, ptr %42, align 8
+  %238 = load <16 x float>, ptr %237, align 4
+  %239 = icmp sgt i64 %73, 1
+  br i1 %239, label %240, label %295
 
-475:
-  %476 = getelementptr <16 x float>, ptr %6, i64 %473
-  %477 = getelementptr <16 x float>, ptr %476, i64 %452
-  br label %481
+240:
+  %241 = load <16 x float>, ptr %231, align 4
+  %242 = fsub contract <16 x float> %230, %241
+  %243 = fdiv contract <16 x float> %242, %236
+  %244 = fadd contract <16 x float> %243, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %245 = fadd contract <16 x float> %244, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %246 = fmul contract <16 x float> %233, %245
+  %247 = fsub contract <16 x float> %242, %246
+  %248 = fmul contract <16 x float> %238, %247
+  %249 = fmul contract <16 x float> %248, %248
+  %250 = shufflevector <16 x float> %249, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %251 = shufflevector <16 x float> %249, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %252 = fadd contract <8 x float> %250, %251
+  %253 = shufflevector <8 x float> %252, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %254 = shufflevector <8 x float> %252, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %255 = fadd contract <4 x float> %253, %254
+  %256 = shufflevector <4 x float> %255, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %257 = fadd contract <4 x float> %255, %256
+  %258 = shufflevector <4 x float> %255, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %259 = fadd contract <4 x float> %255, %258
+  %260 = shufflevector <4 x float> %259, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %261 = fadd contract <4 x float> %257, %260
+  %262 = extractelement <4 x float> %261, i64 0
+  br label %263
 
-478:
-  %479 = add i64 %452, %450
-  %480 = add i64 %479, %473
-  br label %488
+263:
+  %264 = phi i64 [ %292, %263 ], [ 0, %240 ]
+  %265 = phi i64 [ %293, %263 ], [ 1, %240 ]
+  %266 = phi float [ %291, %263 ], [ %262, %240 ]
+  %267 = getelementptr inbounds <16 x float>, ptr %231, i64 %265
+  %268 = load <16 x float>, ptr %267, align 4
+  %269 = fsub contract <16 x float> %230, %268
+  %270 = fdiv contract <16 x float> %269, %236
+  %271 = fadd contract <16 x float> %270, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %272 = fadd contract <16 x float> %271, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %273 = fmul contract <16 x float> %233, %272
+  %274 = fsub contract <16 x float> %269, %273
+  %275 = fmul contract <16 x float> %238, %274
+  %276 = fmul contract <16 x float> %275, %275
+  %277 = shufflevector <16 x float> %276, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %278 = shufflevector <16 x float> %276, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %279 = fadd contract <8 x float> %277, %278
+  %280 = shufflevector <8 x float> %279, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %281 = shufflevector <8 x float> %279, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %282 = fadd contract <4 x float> %280, %281
+  %283 = shufflevector <4 x float> %282, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %284 = fadd contract <4 x float> %282, %283
+  %285 = shufflevector <4 x float> %282, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %286 = fadd contract <4 x float> %282, %285
+  %287 = shufflevector <4 x float> %286, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %288 = fadd contract <4 x float> %284, %287
+  %289 = extractelement <4 x float> %288, i64 0
+  %290 = fcmp contract olt float %289, %266
+  %291 = select i1 %290, float %289, float %266
+  %292 = select i1 %290, i64 %265, i64 %264
+  %293 = add nuw nsw i64 %265, 1
+  %294 = icmp eq i64 %293, %73
+  br i1 %294, label %295, label %263
 
-481:
-  %482 = phi i64 [ %464, %475 ], [ %486, %481 ]
-  %483 = getelementptr inbounds <16 x float>, ptr %6, i64 %482
-  %484 = load <16 x float>, ptr %483, align 4
-  %485 = getelementptr <16 x float>, ptr %477, i64 %482
-  store <16 x float> %484, ptr %485, align 4
-  %486 = add nsw i64 %482, 1
-  %487 = icmp eq i64 %486, %450
-  br i1 %487, label %478, label %481
+295:
+  %296 = phi i64 [ 0, %220 ], [ %292, %263 ]
+  %297 = getelementptr inbounds i8, ptr %66, i64 8
+  br label %298
 
-488:
-  %489 = phi i64 [ %480, %478 ], [ %450, %462 ]
-  %490 = add nuw nsw i64 %451, 3
-  %491 = icmp slt i64 %490, %489
-  br i1 %491, label %449, label %456
+298:
+  %299 = phi i64 [ %73, %295 ], [ %425, %424 ]
+  %300 = phi i64 [ %296, %295 ], [ %426, %424 ]
+  %301 = getelementptr inbounds <16 x float>, ptr %231, i64 %300
+  %302 = load <16 x float>, ptr %301, align 4
+  %303 = fsub contract <16 x float> %230, %302
+  %304 = load ptr, ptr %41, align 8
+  %305 = load <16 x float>, ptr %304, align 4
+  %306 = fcmp contract oeq <16 x float> %305, zeroinitializer
+  %307 = select contract <16 x i1> %306, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
+  %308 = fadd contract <16 x float> %305, %307
+  %309 = fdiv contract <16 x float> %303, %308
+  %310 = fadd contract <16 x float> %309, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %311 = fadd contract <16 x float> %310, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %312 = fmul contract <16 x float> %305, %311
+  %313 = fsub contract <16 x float> %303, %312
+  %314 = load i64, ptr %43, align 8
+  %315 = icmp eq i64 %314, 0
+  %316 = load ptr, ptr %42, align 8
+  %317 = load <16 x float>, ptr %316, align 4
+  %318 = fmul contract <16 x float> %317, %313
+  br i1 %315, label %319, label %335
 
-492:
-  %493 = phi i64 [ %679, %678 ], [ %459, %456 ]
-  %494 = phi i64 [ %517, %678 ], [ %93, %456 ]
-  %495 = phi i64 [ %681, %678 ], [ %489, %456 ]
-  %496 = phi i64 [ %680, %678 ], [ 0, %456 ]
-  store float 0.000000e+00, ptr %13, align 16
-  %497 = load i64, ptr %53, align 8
-  %498 = icmp eq i64 %497, 0
-  %499 = load ptr, ptr %52, align 8
-  %500 = load <16 x float>, ptr %6, align 4
-  %501 = load <16 x float>, ptr %499, align 4
-  br label %529
+319:
+  %320 = fmul contract <16 x float> %318, %318
+  %321 = shufflevector <16 x float> %320, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %322 = shufflevector <16 x float> %320, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %323 = fadd contract <8 x float> %321, %322
+  %324 = shufflevector <8 x float> %323, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %325 = shufflevector <8 x float> %323, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %326 = fadd contract <4 x float> %324, %325
+  %327 = shufflevector <4 x float> %326, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %328 = fadd contract <4 x float> %326, %327
+  %329 = shufflevector <4 x float> %326, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %330 = fadd contract <4 x float> %326, %329
+  %331 = shufflevector <4 x float> %330, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %332 = fadd contract <4 x float> %328, %331
+  %333 = extractelement <4 x float> %332, i64 0
+  %334 = tail call contract float @llvm.sqrt.f32(float %333)
+  br label %338
 
-502:
-  %503 = add nsw i64 %495, -1
-  %504 = getelementptr inbounds [256 x float], ptr %13, i64 0, i64 %503
-  %505 = load float, ptr %504, align 4
-  call void @llvm.lifetime.start.p0(i64 4, ptr nonnull %14)
-  call void @llvm.lifetime.start.p0(i64 4, ptr nonnull %15)
-  %506 = add i64 %494, -7046029254386353131
-  %507 = lshr i64 %506, 30
-  %508 = xor i64 %507, %506
-  %509 = mul i64 %508, -4658895280553007687
-  %510 = lshr i64 %509, 27
-  %511 = xor i64 %510, %509
-  %512 = mul i64 %511, -7723592293110705685
-  %513 = lshr i64 %512, 40
-  %514 = uitofp nneg i64 %513 to float
-  %515 = fmul contract float %514, 0x3E70000000000000
-  %516 = fmul contract float %515, %505
-  store float %516, ptr %14, align 4
-  %517 = add i64 %494, 4354685564936845354
-  %518 = lshr i64 %517, 30
-  %519 = xor i64 %518, %517
-  %520 = mul i64 %519, -4658895280553007687
-  %521 = lshr i64 %520, 27
-  %522 = xor i64 %521, %520
-  %523 = mul i64 %522, -7723592293110705685
-  %524 = lshr i64 %523, 40
-  %525 = uitofp nneg i64 %524 to float
-  %526 = fmul contract float %525, 0x3E70000000000000
-  %527 = fmul contract float %526, %505
-  store float %527, ptr %15, align 4
-  %528 = fcmp contract ogt float %516, %527
-  br i1 %528, label %562, label %563
+335:
+  %336 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %318)
+  %337 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %336)
+  br label %338
 
-529:
-  %530 = phi <16 x float> [ %500, %492 ], [ %534, %556 ]
-  %531 = phi float [ 0.000000e+00, %492 ], [ %558, %556 ]
-  %532 = phi i64 [ 1, %492 ], [ %560, %556 ]
-  %533 = getelementptr inbounds <16 x float>, ptr %6, i64 %532
-  %534 = load <16 x float>, ptr %533, align 4
-  %535 = fsub contract <16 x float> %534, %530
-  %536 = fmul contract <16 x float> %535, %501
-  br i1 %498, label %537, label %553
+338:
+  %339 = phi float [ %337, %335 ], [ %334, %319 ]
+  %340 = load float, ptr %44, align 8
+  %341 = fcmp contract ugt float %339, %340
+  br i1 %341, label %342, label %347
 
-537:
-  %538 = fmul contract <16 x float> %536, %536
-  %539 = shufflevector <16 x float> %538, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %540 = shufflevector <16 x float> %538, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %541 = fadd contract <8 x float> %539, %540
-  %542 = shufflevector <8 x float> %541, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %543 = shufflevector <8 x float> %541, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %544 = fadd contract <4 x float> %542, %543
-  %545 = shufflevector <4 x float> %544, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %546 = fadd contract <4 x float> %544, %545
-  %547 = shufflevector <4 x float> %544, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %548 = fadd contract <4 x float> %544, %547
-  %549 = shufflevector <4 x float> %548, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %550 = fadd contract <4 x float> %546, %549
-  %551 = extractelement <4 x float> %550, i64 0
-  %552 = tail call contract float @llvm.sqrt.f32(float %551)
-  br label %556
+342:
+  %343 = fdiv contract float %340, %339
+  %344 = insertelement <16 x float> poison, float %343, i64 0
+  %345 = shufflevector <16 x float> %344, <16 x float> poison, <16 x i32> zeroinitializer
+  %346 = fmul contract <16 x float> %313, %345
+  br label %347
 
-553:
-  %554 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %536)
-  %555 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %554)
-  br label %556
-
-556:
-  %557 = phi float [ %555, %553 ], [ %552, %537 ]
-  %558 = fadd contract float %531, %557
-  %559 = getelementptr inbounds [256 x float], ptr %13, i64 0, i64 %532
-  store float %558, ptr %559, align 4
-  %560 = add nuw nsw i64 %532, 1
-  %561 = icmp eq i64 %560, %495
-  br i1 %561, label %502, label %529
-
-562:
-  store float %527, ptr %14, align 4
-  store float %516, ptr %15, align 4
-  br label %563
-
-563:
-  %564 = phi float [ %527, %562 ], [ %516, %502 ]
-  %565 = phi float [ %516, %562 ], [ %527, %502 ]
-  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %16)
-  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %17)
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %18)
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %19)
-  %566 = add nsw i64 %495, -2
-  br label %567
-
-567:
-  %568 = phi i1 [ true, %563 ], [ false, %629 ]
-  %569 = phi ptr [ %18, %563 ], [ %19, %629 ]
-  %570 = phi ptr [ %16, %563 ], [ %17, %629 ]
-  %571 = phi ptr [ %14, %563 ], [ %15, %629 ]
-  br label %608
-
-572:
-  %573 = fsub contract float %565, %564
-  %574 = load <16 x float>, ptr %19, align 64
-  %575 = load <16 x float>, ptr %18, align 64
-  %576 = fsub contract <16 x float> %574, %575
-  %577 = fmul contract <16 x float> %501, %576
-  br i1 %498, label %578, label %594
-
-578:
-  %579 = fmul contract <16 x float> %577, %577
-  %580 = shufflevector <16 x float> %579, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
-  %581 = shufflevector <16 x float> %579, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
-  %582 = fadd contract <8 x float> %580, %581
-  %583 = shufflevector <8 x float> %582, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
-  %584 = shufflevector <8 x float> %582, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
-  %585 = fadd contract <4 x float> %583, %584
-  %586 = shufflevector <4 x float> %585, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
-  %587 = fadd contract <4 x float> %585, %586
-  %588 = shufflevector <4 x float> %585, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
-  %589 = fadd contract <4 x float> %585, %588
-  %590 = shufflevector <4 x float> %589, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
-  %591 = fadd contract <4 x float> %587, %590
-  %592 = extractelement <4 x float> %591, i64 0
-  %593 = tail call contract float @llvm.sqrt.f32(float %592)
-  br label %597
-
-594:
-  %595 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %577)
-  %596 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %595)
-  br label %597
-
-597:
-  %598 = phi float [ %596, %594 ], [ %593, %578 ]
-  %599 = fsub contract float %573, %598
-  %600 = load i64, ptr %16, align 16
-  %601 = load i64, ptr %17, align 8
-  %602 = icmp eq i64 %600, %601
-  %603 = fmul contract float %505, 0x3F1A36E2E0000000
-  %604 = fcmp contract olt float %599, %603
-  %605 = select i1 %602, i1 true, i1 %604
-  %606 = icmp sgt i64 %495, 254
-  %607 = or i1 %606, %605
-  br i1 %607, label %644, label %640
-
-608:
-  %609 = phi i64 [ %612, %611 ], [ 0, %567 ]
-  %610 = icmp eq i64 %609, %566
-  br i1 %610, label %617, label %611
-
-611:
-  %612 = add nuw nsw i64 %609, 1
-  %613 = getelementptr inbounds [256 x float], ptr %13, i64 0, i64 %612
-  %614 = load float, ptr %613, align 4
-  %615 = load float, ptr %571, align 4
-  %616 = fcmp contract olt float %614, %615
-  br i1 %616, label %608, label %617
-
-617:
-  %618 = phi float [ %614, %611 ], [ %505, %608 ]
-  %619 = phi i64 [ %612, %611 ], [ %503, %608 ]
-  %620 = phi i64 [ %609, %611 ], [ %566, %608 ]
-  %621 = getelementptr inbounds [256 x float], ptr %13, i64 0, i64 %620
-  %622 = load float, ptr %621, align 4
-  %623 = fsub contract float %618, %622
-  %624 = fcmp contract ogt float %623, 0.000000e+00
-  br i1 %624, label %625, label %629
-
-625:
-  %626 = load float, ptr %571, align 4
-  %627 = fsub contract float %626, %622
-  %628 = fdiv contract float %627, %623
-  br label %629
-
-629:
-  %630 = phi contract float [ %628, %625 ], [ 0.000000e+00, %617 ]
-  %631 = getelementptr inbounds <16 x float>, ptr %6, i64 %620
-  %632 = load <16 x float>, ptr %631, align 4
-  %633 = insertelement <16 x float> poison, float %630, i64 0
-  %634 = shufflevector <16 x float> %633, <16 x float> poison, <16 x i32> zeroinitializer
-  %635 = getelementptr inbounds <16 x float>, ptr %6, i64 %619
-  %636 = load <16 x float>, ptr %635, align 4
-  %637 = fsub contract <16 x float> %636, %632
-  %638 = fmul contract <16 x float> %634, %637
-  %639 = fadd contract <16 x float> %632, %638
-  store <16 x float> %639, ptr %569, align 64
-  store i64 %620, ptr %570, align 8
-  br i1 %568, label %567, label %572
-
-640:
+347:
+  %348 = phi <16 x float> [ %313, %338 ], [ %346, %342 ]
   call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %11)
   call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %12)
-  store <16 x float> %575, ptr %11, align 64
-  store <16 x float> %576, ptr %12, align 64
-  %641 = load float, ptr %55, align 4
-  %642 = load float, ptr %56, align 8
-  %643 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %11, ptr noundef nonnull %12, float noundef %641, float noundef %642)
+  store <16 x float> %302, ptr %11, align 64
+  store <16 x float> %348, ptr %12, align 64
+  %349 = load float, ptr %45, align 4
+  %350 = load float, ptr %46, align 8
+  %351 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull readonly align 8 dereferenceable(136) %0, ptr noundef nonnull %11, ptr noundef nonnull %12, float noundef %349, float noundef %350)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %11)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %12)
-  br i1 %643, label %646, label %644
+  br i1 %351, label %352, label %427
 
-644:
-  %645 = add nsw i64 %496, 1
-  br label %678
+352:
+  br i1 %341, label %414, label %353
 
-646:
-  %647 = fmul contract float %505, 0x3F847AE140000000
-  %648 = fcmp contract ogt float %599, %647
-  %649 = select i1 %648, i64 0, i64 %496
-  %650 = sub i64 %600, %601
-  %651 = add i64 %650, 2
-  %652 = icmp sgt i64 %651, 0
-  br i1 %652, label %656, label %653
+353:
+  %354 = select i1 %61, i64 %300, i64 %68
+  %355 = select i1 %61, i64 %68, i64 %300
+  %356 = icmp slt i64 %354, 0
+  br i1 %356, label %375, label %362
 
-653:
-  %654 = add nsw i64 %601, 1
-  %655 = icmp slt i64 %654, %495
-  br i1 %655, label %665, label %672
+357:
+  %358 = lshr i64 %369, 1
+  %359 = icmp eq i64 %364, 0
+  br i1 %359, label %375, label %360
 
-656:
-  %657 = icmp sgt i64 %503, %601
-  br i1 %657, label %658, label %672
+360:
+  %361 = getelementptr <16 x float>, ptr %6, i64 %369
+  br label %378
 
-658:
-  %659 = phi i64 [ %663, %658 ], [ %503, %656 ]
-  %660 = getelementptr inbounds <16 x float>, ptr %6, i64 %659
-  %661 = load <16 x float>, ptr %660, align 4
-  %662 = getelementptr <16 x float>, ptr %660, i64 %651
-  store <16 x float> %661, ptr %662, align 4
-  %663 = add nsw i64 %659, -1
-  %664 = icmp sgt i64 %663, %601
-  br i1 %664, label %658, label %672
+362:
+  %363 = phi i64 [ %373, %366 ], [ %354, %353 ]
+  %364 = phi i64 [ %369, %366 ], [ 0, %353 ]
+  %365 = icmp eq i64 %364, 256
+  br i1 %365, label %433, label %366
 
-665:
-  %666 = phi i64 [ %670, %665 ], [ %654, %653 ]
-  %667 = getelementptr inbounds <16 x float>, ptr %6, i64 %666
-  %668 = load <16 x float>, ptr %667, align 4
-  %669 = getelementptr <16 x float>, ptr %667, i64 %651
-  store <16 x float> %668, ptr %669, align 4
-  %670 = add nsw i64 %666, 1
-  %671 = icmp eq i64 %670, %495
-  br i1 %671, label %672, label %665
+366:
+  %367 = getelementptr inbounds <16 x float>, ptr %17, i64 %363
+  %368 = load <16 x float>, ptr %367, align 4
+  %369 = add nuw nsw i64 %364, 1
+  %370 = getelementptr inbounds <16 x float>, ptr %6, i64 %364
+  store <16 x float> %368, ptr %370, align 4
+  %371 = getelementptr inbounds i32, ptr %20, i64 %363
+  %372 = load i32, ptr %371, align 4
+  %373 = zext nneg i32 %372 to i64
+  %374 = icmp slt i32 %372, 0
+  br i1 %374, label %357, label %362
 
-672:
-  %673 = getelementptr <16 x float>, ptr %6, i64 %600
-  %674 = getelementptr i8, ptr %673, i64 64
-  store <16 x float> %575, ptr %674, align 4
-  %675 = getelementptr i8, ptr %673, i64 128
-  store <16 x float> %574, ptr %675, align 4
-  %676 = add nsw i64 %651, %495
-  %677 = load i64, ptr %457, align 8
-  br label %678
+375:
+  %376 = phi i64 [ 1, %357 ], [ 0, %353 ], [ %369, %378 ]
+  %377 = icmp slt i64 %355, 0
+  br i1 %377, label %435, label %387
 
-678:
-  %679 = phi i64 [ %493, %644 ], [ %677, %672 ]
-  %680 = phi i64 [ %645, %644 ], [ %649, %672 ]
-  %681 = phi i64 [ %495, %644 ], [ %676, %672 ]
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %18)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %19)
-  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %16)
-  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %17)
-  call void @llvm.lifetime.end.p0(i64 4, ptr nonnull %14)
-  call void @llvm.lifetime.end.p0(i64 4, ptr nonnull %15)
-  %682 = icmp sgt i64 %681, 2
-  %683 = icmp slt i64 %680, %679
-  %684 = select i1 %682, i1 %683, i1 false
-  br i1 %684, label %492, label %685
+378:
+  %379 = phi i64 [ 0, %360 ], [ %385, %378 ]
+  %380 = xor i64 %379, -1
+  %381 = getelementptr <16 x float>, ptr %361, i64 %380
+  %382 = load <16 x float>, ptr %381, align 4
+  %383 = getelementptr inbounds <16 x float>, ptr %6, i64 %379
+  %384 = load <16 x float>, ptr %383, align 4
+  store <16 x float> %384, ptr %381, align 4
+  store <16 x float> %382, ptr %383, align 4
+  %385 = add nuw nsw i64 %379, 1
+  %386 = icmp eq i64 %385, %358
+  br i1 %386, label %375, label %378
 
-685:
-  %686 = phi i64 [ %489, %456 ], [ %681, %678 ]
-  call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %13)
-  br label %687
+387:
+  %388 = phi i64 [ %412, %391 ], [ %355, %375 ]
+  %389 = phi i64 [ %409, %391 ], [ %376, %375 ]
+  store i64 %388, ptr %7, align 8
+  %390 = icmp eq i64 %389, 256
+  br i1 %390, label %424, label %391
 
-687:
-  %688 = phi i64 [ %686, %685 ], [ %446, %445 ], [ %444, %443 ]
-  ret i64 %688
+391:
+  %392 = getelementptr <16 x float>, ptr %6, i64 %389
+  %393 = getelementptr i8, ptr %392, i64 -64
+  %394 = load <16 x float>, ptr %393, align 4
+  %395 = getelementptr inbounds <16 x float>, ptr %25, i64 %388
+  %396 = load <16 x float>, ptr %395, align 4
+  %397 = fsub contract <16 x float> %396, %394
+  %398 = load ptr, ptr %41, align 8
+  %399 = load <16 x float>, ptr %398, align 4
+  %400 = fcmp contract oeq <16 x float> %399, zeroinitializer
+  %401 = select contract <16 x i1> %400, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> zeroinitializer
+  %402 = fadd contract <16 x float> %399, %401
+  %403 = fdiv contract <16 x float> %397, %402
+  %404 = fadd contract <16 x float> %403, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %405 = fadd contract <16 x float> %404, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %406 = fmul contract <16 x float> %399, %405
+  %407 = fsub contract <16 x float> %397, %406
+  %408 = fadd contract <16 x float> %394, %407
+  store <16 x float> %408, ptr %392, align 4
+  %409 = add nuw nsw i64 %389, 1
+  %410 = getelementptr inbounds i32, ptr %27, i64 %388
+  %411 = load i32, ptr %410, align 4
+  %412 = zext nneg i32 %411 to i64
+  %413 = icmp slt i32 %411, 0
+  br i1 %413, label %435, label %387
+
+414:
+  %415 = load i64, ptr %23, align 8
+  %416 = icmp slt i64 %299, %415
+  br i1 %416, label %417, label %427
+
+417:
+  %418 = fadd contract <16 x float> %302, %348
+  %419 = getelementptr inbounds <16 x float>, ptr %231, i64 %299
+  store <16 x float> %418, ptr %419, align 4
+  %420 = trunc i64 %300 to i32
+  %421 = load ptr, ptr %297, align 8
+  %422 = add nsw i64 %299, 1
+  store i64 %422, ptr %72, align 8
+  %423 = getelementptr inbounds i32, ptr %421, i64 %299
+  store i32 %420, ptr %423, align 4
+  br label %424
+
+424:
+  %425 = phi i64 [ %422, %417 ], [ %299, %387 ]
+  %426 = phi i64 [ %299, %417 ], [ %300, %387 ]
+  br i1 %341, label %298, label %433
+
+427:
+  %428 = load i64, ptr %37, align 8
+  br label %429
+
+429:
+  %430 = phi i64 [ %428, %427 ], [ %56, %216 ], [ %56, %213 ]
+  %431 = add nuw nsw i64 %58, 1
+  %432 = icmp slt i64 %431, %430
+  br i1 %432, label %55, label %433
+
+433:
+  %434 = phi i64 [ 0, %31 ], [ -1, %362 ], [ -1, %424 ], [ 0, %429 ], [ 0, %71 ], [ 0, %55 ]
+  call void @llvm.lifetime.end.p0(i64 48, ptr nonnull %13)
+  br label %440
+
+435:
+  %436 = phi i64 [ %409, %391 ], [ %376, %375 ]
+  store i64 %83, ptr %14, align 8
+  call void @llvm.lifetime.end.p0(i64 48, ptr nonnull %13)
+  %437 = icmp sgt i64 %436, 2
+  br i1 %437, label %438, label %440
+
+438:
+  %439 = call fastcc noundef i64 @_ZL13shorten_routeRK5SceneIfERK7ProblemR6RandomPDv16_fx(ptr noundef nonnull align 8 dereferenceable(136) %0, ptr noundef nonnull align 8 dereferenceable(96) %1, ptr noundef nonnull align 8 dereferenceable(8) %14, ptr noundef %6, i64 noundef %436)
+  br label %440
+
+440:
+  %441 = phi i64 [ %439, %438 ], [ %436, %435 ], [ %434, %433 ]
+  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %14)
+  ret i64 %441
+}
+
+define internal fastcc noundef i64 @_ZL13shorten_routeRK5SceneIfERK7ProblemR6RandomPDv16_fx(ptr nocapture noundef nonnull readonly align 8 dereferenceable(136) %0, ptr nocapture noundef nonnull readonly align 8 dereferenceable(96) %1, ptr nocapture noundef nonnull align 8 dereferenceable(8) %2, ptr nocapture noundef %3, i64 noundef %4) unnamed_addr {
+  %6 = alloca <16 x float>, align 64
+  %7 = alloca <16 x float>, align 64
+  %8 = alloca <16 x float>, align 64
+  %9 = alloca <16 x float>, align 64
+  %10 = alloca [256 x float], align 16
+  %11 = alloca float, align 4
+  %12 = alloca float, align 4
+  %13 = alloca i64, align 16
+  %14 = alloca i64, align 8
+  %15 = alloca <16 x float>, align 64
+  %16 = alloca <16 x float>, align 64
+  call void @llvm.lifetime.start.p0(i64 1024, ptr nonnull %10)
+  %17 = icmp sgt i64 %4, 2
+  br i1 %17, label %18, label %268
+
+18:
+  %19 = getelementptr inbounds i8, ptr %1, i64 84
+  %20 = getelementptr inbounds i8, ptr %1, i64 88
+  br label %21
+
+21:
+  %22 = phi i64 [ %4, %18 ], [ %66, %65 ]
+  %23 = phi i64 [ 0, %18 ], [ %24, %65 ]
+  %24 = add nuw nsw i64 %23, 1
+  %25 = getelementptr inbounds <16 x float>, ptr %3, i64 %23
+  %26 = load float, ptr %19, align 4
+  %27 = load float, ptr %20, align 8
+  br label %39
+
+28:
+  %29 = getelementptr inbounds i8, ptr %1, i64 56
+  %30 = icmp sgt i64 %66, 2
+  %31 = load i64, ptr %29, align 8
+  %32 = icmp sgt i64 %31, 0
+  %33 = select i1 %30, i1 %32, i1 false
+  br i1 %33, label %34, label %268
+
+34:
+  %35 = getelementptr inbounds i8, ptr %1, i64 32
+  %36 = getelementptr inbounds i8, ptr %1, i64 16
+  %37 = getelementptr inbounds i8, ptr %1, i64 84
+  %38 = getelementptr inbounds i8, ptr %1, i64 88
+  br label %69
+
+39:
+  %40 = phi i64 [ %41, %43 ], [ %22, %21 ]
+  %41 = add nsw i64 %40, -1
+  %42 = icmp sgt i64 %41, %24
+  br i1 %42, label %43, label %65
+
+43:
+  %44 = load <16 x float>, ptr %25, align 4
+  %45 = getelementptr inbounds <16 x float>, ptr %3, i64 %41
+  %46 = load <16 x float>, ptr %45, align 4
+  %47 = fsub contract <16 x float> %46, %44
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %6)
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %7)
+  store <16 x float> %44, ptr %6, align 64
+  store <16 x float> %47, ptr %7, align 64
+  %48 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull align 8 dereferenceable(136) %0, ptr noundef nonnull %6, ptr noundef nonnull %7, float noundef %26, float noundef %27)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %6)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %7)
+  br i1 %48, label %49, label %39
+
+49:
+  %50 = sub i64 1, %40
+  %51 = icmp sgt i64 %40, %22
+  br i1 %51, label %55, label %52
+
+52:
+  %53 = getelementptr <16 x float>, ptr %3, i64 %50
+  %54 = getelementptr <16 x float>, ptr %53, i64 %24
+  br label %58
+
+55:
+  %56 = add i64 %22, %24
+  %57 = add i64 %56, %50
+  br label %65
+
+58:
+  %59 = phi i64 [ %41, %52 ], [ %63, %58 ]
+  %60 = getelementptr inbounds <16 x float>, ptr %3, i64 %59
+  %61 = load <16 x float>, ptr %60, align 4
+  %62 = getelementptr <16 x float>, ptr %54, i64 %59
+  store <16 x float> %61, ptr %62, align 4
+  %63 = add nsw i64 %59, 1
+  %64 = icmp eq i64 %63, %22
+  br i1 %64, label %55, label %58
+
+65:
+  %66 = phi i64 [ %57, %55 ], [ %22, %39 ]
+  %67 = add nuw nsw i64 %23, 3
+  %68 = icmp slt i64 %67, %66
+  br i1 %68, label %21, label %28
+
+69:
+  %70 = phi i64 [ %66, %34 ], [ %263, %261 ]
+  %71 = phi i64 [ 0, %34 ], [ %262, %261 ]
+  store float 0.000000e+00, ptr %10, align 16
+  %72 = load i64, ptr %35, align 8
+  %73 = icmp eq i64 %72, 0
+  %74 = load ptr, ptr %36, align 8
+  %75 = load <16 x float>, ptr %3, align 4
+  %76 = load <16 x float>, ptr %74, align 4
+  br label %105
+
+77:
+  %78 = add nsw i64 %70, -1
+  %79 = getelementptr inbounds [256 x float], ptr %10, i64 0, i64 %78
+  %80 = load float, ptr %79, align 4
+  call void @llvm.lifetime.start.p0(i64 4, ptr nonnull %11)
+  call void @llvm.lifetime.start.p0(i64 4, ptr nonnull %12)
+  %81 = load i64, ptr %2, align 8
+  %82 = add i64 %81, -7046029254386353131
+  %83 = lshr i64 %82, 30
+  %84 = xor i64 %83, %82
+  %85 = mul i64 %84, -4658895280553007687
+  %86 = lshr i64 %85, 27
+  %87 = xor i64 %86, %85
+  %88 = mul i64 %87, -7723592293110705685
+  %89 = lshr i64 %88, 40
+  %90 = uitofp nneg i64 %89 to float
+  %91 = fmul contract float %90, 0x3E70000000000000
+  %92 = fmul contract float %80, %91
+  store float %92, ptr %11, align 4
+  %93 = add i64 %81, 4354685564936845354
+  store i64 %93, ptr %2, align 8
+  %94 = lshr i64 %93, 30
+  %95 = xor i64 %94, %93
+  %96 = mul i64 %95, -4658895280553007687
+  %97 = lshr i64 %96, 27
+  %98 = xor i64 %97, %96
+  %99 = mul i64 %98, -7723592293110705685
+  %100 = lshr i64 %99, 40
+  %101 = uitofp nneg i64 %100 to float
+  %102 = fmul contract float %101, 0x3E70000000000000
+  %103 = fmul contract float %80, %102
+  store float %103, ptr %12, align 4
+  %104 = fcmp contract ogt float %92, %103
+  br i1 %104, label %138, label %139
+
+105:
+  %106 = phi <16 x float> [ %75, %69 ], [ %110, %132 ]
+  %107 = phi float [ 0.000000e+00, %69 ], [ %134, %132 ]
+  %108 = phi i64 [ 1, %69 ], [ %136, %132 ]
+  %109 = getelementptr inbounds <16 x float>, ptr %3, i64 %108
+  %110 = load <16 x float>, ptr %109, align 4
+  %111 = fsub contract <16 x float> %110, %106
+  %112 = fmul contract <16 x float> %111, %76
+  br i1 %73, label %113, label %129
+
+113:
+  %114 = fmul contract <16 x float> %112, %112
+  %115 = shufflevector <16 x float> %114, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %116 = shufflevector <16 x float> %114, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %117 = fadd contract <8 x float> %115, %116
+  %118 = shufflevector <8 x float> %117, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %119 = shufflevector <8 x float> %117, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %120 = fadd contract <4 x float> %118, %119
+  %121 = shufflevector <4 x float> %120, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %122 = fadd contract <4 x float> %120, %121
+  %123 = shufflevector <4 x float> %120, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %124 = fadd contract <4 x float> %120, %123
+  %125 = shufflevector <4 x float> %124, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %126 = fadd contract <4 x float> %122, %125
+  %127 = extractelement <4 x float> %126, i64 0
+  %128 = tail call contract float @llvm.sqrt.f32(float %127)
+  br label %132
+
+129:
+  %130 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %112)
+  %131 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %130)
+  br label %132
+
+132:
+  %133 = phi float [ %131, %129 ], [ %128, %113 ]
+  %134 = fadd contract float %107, %133
+  %135 = getelementptr inbounds [256 x float], ptr %10, i64 0, i64 %108
+  store float %134, ptr %135, align 4
+  %136 = add nuw nsw i64 %108, 1
+  %137 = icmp eq i64 %136, %70
+  br i1 %137, label %77, label %105
+
+138:
+  store float %103, ptr %11, align 4
+  store float %92, ptr %12, align 4
+  br label %139
+
+139:
+  %140 = phi float [ %103, %138 ], [ %92, %77 ]
+  %141 = phi float [ %92, %138 ], [ %103, %77 ]
+  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %13)
+  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %14)
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %15)
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %16)
+  %142 = add nsw i64 %70, -2
+  %143 = add nsw i64 %70, -1
+  %144 = getelementptr inbounds [256 x float], ptr %10, i64 0, i64 %143
+  br label %145
+
+145:
+  %146 = phi i1 [ true, %139 ], [ false, %213 ]
+  %147 = phi ptr [ %15, %139 ], [ %16, %213 ]
+  %148 = phi ptr [ %13, %139 ], [ %14, %213 ]
+  %149 = phi ptr [ %11, %139 ], [ %12, %213 ]
+  br label %190
+
+150:
+  %151 = fsub contract float %141, %140
+  %152 = load <16 x float>, ptr %16, align 64
+  %153 = load <16 x float>, ptr %15, align 64
+  %154 = fsub contract <16 x float> %152, %153
+  %155 = load i64, ptr %35, align 8
+  %156 = icmp eq i64 %155, 0
+  %157 = load ptr, ptr %36, align 8
+  %158 = load <16 x float>, ptr %157, align 4
+  %159 = fmul contract <16 x float> %154, %158
+  br i1 %156, label %160, label %176
+
+160:
+  %161 = fmul contract <16 x float> %159, %159
+  %162 = shufflevector <16 x float> %161, <16 x float> poison, <8 x i32> <i32 0, i32 1, i32 2, i32 3, i32 4, i32 5, i32 6, i32 7>
+  %163 = shufflevector <16 x float> %161, <16 x float> poison, <8 x i32> <i32 8, i32 9, i32 10, i32 11, i32 12, i32 13, i32 14, i32 15>
+  %164 = fadd contract <8 x float> %162, %163
+  %165 = shufflevector <8 x float> %164, <8 x float> poison, <4 x i32> <i32 0, i32 1, i32 2, i32 3>
+  %166 = shufflevector <8 x float> %164, <8 x float> poison, <4 x i32> <i32 4, i32 5, i32 6, i32 7>
+  %167 = fadd contract <4 x float> %165, %166
+  %168 = shufflevector <4 x float> %167, <4 x float> poison, <4 x i32> <i32 2, i32 poison, i32 poison, i32 poison>
+  %169 = fadd contract <4 x float> %167, %168
+  %170 = shufflevector <4 x float> %167, <4 x float> poison, <4 x i32> <i32 poison, i32 3, i32 poison, i32 poison>
+  %171 = fadd contract <4 x float> %167, %170
+  %172 = shufflevector <4 x float> %171, <4 x float> poison, <4 x i32> <i32 1, i32 poison, i32 poison, i32 poison>
+  %173 = fadd contract <4 x float> %169, %172
+  %174 = extractelement <4 x float> %173, i64 0
+  %175 = tail call contract float @llvm.sqrt.f32(float %174)
+  br label %179
+
+176:
+  %177 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %159)
+  %178 = tail call contract float @llvm.vector.reduce.fmax.v16f32(<16 x float> %177)
+  br label %179
+
+179:
+  %180 = phi float [ %178, %176 ], [ %175, %160 ]
+  %181 = fsub contract float %151, %180
+  %182 = load i64, ptr %13, align 16
+  %183 = load i64, ptr %14, align 8
+  %184 = icmp eq i64 %182, %183
+  %185 = fmul contract float %80, 0x3F1A36E2E0000000
+  %186 = fcmp contract olt float %181, %185
+  %187 = select i1 %184, i1 true, i1 %186
+  %188 = icmp sgt i64 %70, 254
+  %189 = or i1 %188, %187
+  br i1 %189, label %228, label %224
+
+190:
+  %191 = phi i64 [ %196, %195 ], [ 0, %145 ]
+  %192 = icmp eq i64 %191, %142
+  br i1 %192, label %193, label %195
+
+193:
+  %194 = load float, ptr %144, align 4
+  br label %201
+
+195:
+  %196 = add nuw nsw i64 %191, 1
+  %197 = getelementptr inbounds [256 x float], ptr %10, i64 0, i64 %196
+  %198 = load float, ptr %197, align 4
+  %199 = load float, ptr %149, align 4
+  %200 = fcmp contract olt float %198, %199
+  br i1 %200, label %190, label %201
+
+201:
+  %202 = phi float [ %194, %193 ], [ %198, %195 ]
+  %203 = phi i64 [ %143, %193 ], [ %196, %195 ]
+  %204 = phi i64 [ %142, %193 ], [ %191, %195 ]
+  %205 = getelementptr inbounds [256 x float], ptr %10, i64 0, i64 %204
+  %206 = load float, ptr %205, align 4
+  %207 = fsub contract float %202, %206
+  %208 = fcmp contract ogt float %207, 0.000000e+00
+  br i1 %208, label %209, label %213
+
+209:
+  %210 = load float, ptr %149, align 4
+  %211 = fsub contract float %210, %206
+  %212 = fdiv contract float %211, %207
+  br label %213
+
+213:
+  %214 = phi contract float [ %212, %209 ], [ 0.000000e+00, %201 ]
+  %215 = getelementptr inbounds <16 x float>, ptr %3, i64 %204
+  %216 = load <16 x float>, ptr %215, align 4
+  %217 = insertelement <16 x float> poison, float %214, i64 0
+  %218 = shufflevector <16 x float> %217, <16 x float> poison, <16 x i32> zeroinitializer
+  %219 = getelementptr inbounds <16 x float>, ptr %3, i64 %203
+  %220 = load <16 x float>, ptr %219, align 4
+  %221 = fsub contract <16 x float> %220, %216
+  %222 = fmul contract <16 x float> %218, %221
+  %223 = fadd contract <16 x float> %216, %222
+  store <16 x float> %223, ptr %147, align 64
+  store i64 %204, ptr %148, align 8
+  br i1 %146, label %145, label %150
+
+224:
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %8)
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %9)
+  store <16 x float> %153, ptr %8, align 64
+  store <16 x float> %154, ptr %9, align 64
+  %225 = load float, ptr %37, align 4
+  %226 = load float, ptr %38, align 8
+  %227 = call fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(ptr noundef nonnull align 8 dereferenceable(136) %0, ptr noundef nonnull %8, ptr noundef nonnull %9, float noundef %225, float noundef %226)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %8)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %9)
+  br i1 %227, label %230, label %228
+
+228:
+  %229 = add nsw i64 %71, 1
+  br label %261
+
+230:
+  %231 = fmul contract float %80, 0x3F847AE140000000
+  %232 = fcmp contract ogt float %181, %231
+  %233 = select i1 %232, i64 0, i64 %71
+  %234 = sub i64 %182, %183
+  %235 = add i64 %234, 2
+  %236 = icmp sgt i64 %235, 0
+  br i1 %236, label %240, label %237
+
+237:
+  %238 = add nsw i64 %183, 1
+  %239 = icmp slt i64 %238, %70
+  br i1 %239, label %249, label %256
+
+240:
+  %241 = icmp sgt i64 %78, %183
+  br i1 %241, label %242, label %256
+
+242:
+  %243 = phi i64 [ %247, %242 ], [ %78, %240 ]
+  %244 = getelementptr inbounds <16 x float>, ptr %3, i64 %243
+  %245 = load <16 x float>, ptr %244, align 4
+  %246 = getelementptr <16 x float>, ptr %244, i64 %235
+  store <16 x float> %245, ptr %246, align 4
+  %247 = add nsw i64 %243, -1
+  %248 = icmp sgt i64 %247, %183
+  br i1 %248, label %242, label %256
+
+249:
+  %250 = phi i64 [ %254, %249 ], [ %238, %237 ]
+  %251 = getelementptr inbounds <16 x float>, ptr %3, i64 %250
+  %252 = load <16 x float>, ptr %251, align 4
+  %253 = getelementptr <16 x float>, ptr %251, i64 %235
+  store <16 x float> %252, ptr %253, align 4
+  %254 = add nsw i64 %250, 1
+  %255 = icmp eq i64 %254, %70
+  br i1 %255, label %256, label %249
+
+256:
+  %257 = getelementptr <16 x float>, ptr %3, i64 %182
+  %258 = getelementptr i8, ptr %257, i64 64
+  store <16 x float> %153, ptr %258, align 4
+  %259 = getelementptr i8, ptr %257, i64 128
+  store <16 x float> %152, ptr %259, align 4
+  %260 = add nsw i64 %235, %70
+  br label %261
+
+261:
+  %262 = phi i64 [ %229, %228 ], [ %233, %256 ]
+  %263 = phi i64 [ %70, %228 ], [ %260, %256 ]
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %15)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %16)
+  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %13)
+  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %14)
+  call void @llvm.lifetime.end.p0(i64 4, ptr nonnull %11)
+  call void @llvm.lifetime.end.p0(i64 4, ptr nonnull %12)
+  %264 = icmp sgt i64 %263, 2
+  %265 = load i64, ptr %29, align 8
+  %266 = icmp slt i64 %262, %265
+  %267 = select i1 %264, i1 %266, i1 false
+  br i1 %267, label %69, label %268
+
+268:
+  %269 = phi i64 [ %66, %28 ], [ %4, %5 ], [ %263, %261 ]
+  call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %10)
+  ret i64 %269
+}
+
+define noundef i64 @shorten(ptr nocapture noundef nonnull readonly %0, ptr nocapture noundef nonnull readonly %1, ptr nocapture noundef %2, i64 noundef %3, i64 noundef %4) {
+  %6 = alloca %struct.Random, align 8
+  call void @llvm.lifetime.start.p0(i64 8, ptr nonnull %6)
+  store i64 %4, ptr %6, align 8
+  %7 = call fastcc noundef i64 @_ZL13shorten_routeRK5SceneIfERK7ProblemR6RandomPDv16_fx(ptr noundef nonnull align 8 dereferenceable(136) %0, ptr noundef nonnull align 8 dereferenceable(96) %1, ptr noundef nonnull align 8 dereferenceable(8) %6, ptr noundef %2, i64 noundef %3)
+  call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %6)
+  ret i64 %7
 }
 
 declare void @llvm.memset.p0.i64(ptr nocapture writeonly, i8, i64, i1 immarg)

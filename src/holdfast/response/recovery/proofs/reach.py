@@ -61,7 +61,9 @@ def enumerate_collision_free(
         # Isolated configurations are few, and to check them takes less time than to exclude boxes in contact.
         blocked, solutions = None, None
         if int(space.free.sum()) <= solver.rows.m:
-            solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, max_boxes=_MAX_PLAIN_BOXES)
+            solutions = enumerate_configurations(
+                recovery.degraded, recovery.task, pose, space.seconds_left / 2, max_boxes=_MAX_PLAIN_BOXES
+            )
         if solutions is None or solutions.finding == SearchOutcome.OPEN:
             blocked = make_blocked_boxes(space)
             solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked)
