@@ -1,3 +1,4 @@
+; From route_search.cpp, SHA-256 e08451f2cfad5d696e064549166dc263c0cc7415e6d9d52bafa9c49217c41101, by tools/native.py. Do not edit.
 
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
 %struct.Motion = type { [17 x float], [17 x float], [136 x float], [136 x float] }
