@@ -323,7 +323,7 @@ def single_solvers(arm: UrdfArm, starts: np.ndarray) -> dict[str, Callable[[], S
         "holdfast `explain_ik`": lambda: by_explain_ik,
         "ssik": ssik,
         "TRAC-IK, 5 ms": lambda: by_trac_ik(0.005),
-        "TRAC-IK, 50 ms": lambda: by_trac_ik(0.05),
+        "TRAC-IK, 500 ms": lambda: by_trac_ik(0.5),
         f"Pinocchio in a loop, {len(starts)} starts": lambda: by_pinocchio,
         LOCKED: lambda: by_all_configurations,
     }
@@ -386,7 +386,7 @@ def verdicts(count: int) -> str:
     head += ["random orientation: solved", "proved unreachable", "undecided", "wrong", "ms, median / 95 %"]
     return harness.table(f"W3: verdicts on single poses, {count} of each arm and kind", head, lines) + (
         "\nReachable: poses of random configurations. Random orientation: the same positions with random orientations. "
-        "Undecided: neither an answer nor a proof, which is all that peers say of an unreachable pose. Wrong: an answer off the "
+        "Undecided: neither an answer nor a proof, all that peers say of an unreachable pose. Wrong: an answer off the "
         "pose or the limits by more than 1e-6 m and rad, by Pinocchio, or a proof where a row has an answer. ssik: the module "
         "of `ssik build`, all answers to each pose. One joint locked: joint 1 of the first pose, joint 2 of the second, and so "
         "on, where the configuration has it. Processor time, all threads."
