@@ -386,7 +386,7 @@ def verdicts(count: int) -> str:
     head += ["random orientation: solved", "proved unreachable", "undecided", "wrong", "ms, median / 95 %"]
     return harness.table(f"W3: verdicts on single poses, {count} of each arm and kind", head, lines) + (
         "\nReachable: poses of random configurations. Random orientation: the same positions with random orientations. "
-        "Undecided: neither an answer nor a proof, all that peers say of an unreachable pose. Wrong: an answer off the "
+        "Undecided: neither an answer nor a proof; peers prove nothing. Wrong: an answer off the "
         "pose or the limits by more than 1e-6 m and rad, by Pinocchio, or a proof where a row has an answer. ssik: the module "
         "of `ssik build`, all answers to each pose. One joint locked: joint 1 of the first pose, joint 2 of the second, and so "
         "on, where the configuration has it. Processor time, all threads."
