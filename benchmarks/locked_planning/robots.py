@@ -1,0 +1,188 @@
+"""Robot models of the two tracks as numbers, and as URDF, SRDF, and STL files for planners that read files."""
+
+from __future__ import annotations
+
+import json
+import os
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Json = dict[str, Any]
+
+ROBOT_VARIABLE = "VAMP_PANDA_SPHERES"  # path of VAMP's panda_spherized.urdf, or of a robot as JSON
+BASE, LAST_LINK, TOOL = "panda_link0", "panda_link7", "panda_grasptarget"
+SELF_PAIRS = [[0, 5], [0, 6], [0, 7], [1, 5], [1, 6], [1, 7], [2, 5], [2, 7], [5, 7]]  # of the archive's collision matrix
+FINGER_POSITION_M = 0.04  # fully open; the sphere model has its fingers further apart than the gripper can open
+
+
+def load_robot(track: str, path: str | Path | None = None) -> Json:
+    """Return the robot of a track as the dictionary of :mod:`validator`; with ``meshes`` it has ``pieces``, not ``spheres``.
+
+    Both tracks need the sphere robot, because its kinematics and limits define the problems.
+
+    Raises:
+        FileNotFoundError: No file of the sphere robot is given, or it does not exist.
+    """
+    given = path or os.environ.get(ROBOT_VARIABLE)
+    if not given or not Path(given).is_file():
+        reason = f"the file of the robot, {given}, does not exist" if given else "no file of the robot is given"
+        raise FileNotFoundError(
+            f"{reason}; give --robot or set {ROBOT_VARIABLE} to resources/panda/panda_spherized.urdf of "
+            "https://github.com/KavrakiLab/vamp"
+        )
+    text = Path(given).read_text()
+    robot = _read_json(json.loads(text)) if str(given).endswith(".json") else _read_urdf(text)
+    if track == "meshes":
+        del robot["spheres"]
+        robot["pieces"] = _mesh_pieces()
+    return robot
+
+
+def _read_json(data: Json) -> Json:
+    spheres = [
+        {"link": entry["link"], "center": entry.get("center", entry.get("centre")), "radius": entry["radius"]}
+        for entry in data["spheres"]
+    ]
+    kept = {key: data[key] for key in ("lower", "upper", "joint_origins", "tool")}
+    return {**kept, "spheres": spheres, "self_pairs": SELF_PAIRS}
+
+
+def _read_urdf(text: str) -> Json:
+    """Return the chain from the base to the last link; fixed links beyond it belong to the last link."""
+    root = ET.fromstring(text)
+    joints = {_get(joint, "child", "link"): joint for joint in root.iter("joint") if joint.find("child") is not None}
+    robot: Json = {"lower": [], "upper": [], "joint_origins": [], "self_pairs": SELF_PAIRS, "spheres": []}
+    chain, name = [], LAST_LINK
+    while name != BASE:
+        chain.insert(0, joints[name])
+        name = _get(joints[name], "parent", "link")
+    for joint in chain:
+        robot["joint_origins"].append(_origin(joint).tolist())
+        for side in ("lower", "upper"):
+            robot[side].append(float(_get(joint, "limit", side)))
+    links = {BASE: 0} | {_get(joint, "child", "link"): index + 1 for index, joint in enumerate(chain)}
+
+    def place(name: str) -> tuple[int, Floats]:
+        if name in links:
+            return links[name], np.eye(4)
+        link, pose = place(_get(joints[name], "parent", "link"))
+        return link, pose @ _origin(joints[name])
+
+    robot["tool"] = place(TOOL)[1].tolist()
+    for element in root.iter("link"):
+        for collision in element.iter("collision"):
+            link, pose = place(element.attrib["name"])
+            center = (pose @ _origin(collision))[:3, 3].tolist()
+            radius = float(_get(collision, "geometry/sphere", "radius"))
+            robot["spheres"].append({"link": link, "center": center, "radius": radius})
+    robot["spheres"].sort(key=lambda sphere: sphere["link"])
+    return robot
+
+
+def _get(element: ET.Element, path: str, key: str) -> str:
+    child = element.find(path)
+    if child is None:
+        raise ValueError(f"<{element.tag}> of the robot's URDF has no <{path}>")
+    return child.attrib[key]
+
+
+def _origin(element: ET.Element) -> Floats:
+    origin = element.find("origin")
+    xyz, rpy = (
+        [float(x) for x in (origin.get(key, "0 0 0") if origin is not None else "0 0 0").split()] for key in ("xyz", "rpy")
+    )
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    pose = np.eye(4)
+    pose[:3, :3] = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    pose[:3, 3] = xyz
+    return pose
+
+
+def _mesh_pieces() -> list[Json]:
+    """Return the collision meshes and boxes of holdfast's built-in Panda, in the frames of the links that they move with."""
+    from holdfast.model.collision.shape import CollisionModel
+
+    import holdfast as hf
+
+    model = CollisionModel.from_arm(hf.arms.load("panda"), hold={"panda_finger_joint1": FINGER_POSITION_M})
+    pieces = []
+    for piece in model.pieces:
+        vertices, faces = _box_mesh(piece.size) if piece.kind == "box" else (piece.vertices, piece.faces)
+        pose = np.asarray(piece.pose)
+        placed = np.asarray(vertices) @ pose[:3, :3].T + pose[:3, 3]
+        pieces.append({"link": piece.link + 1, "vertices": placed, "faces": np.asarray(faces, dtype=int)})
+    return pieces
+
+
+def _box_mesh(size: Any) -> tuple[Floats, NDArray[np.int64]]:
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * np.asarray(size) / 2
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]  # outward normals
+    return corners, np.array([[a, *pair] for a, b, c, d in quads for pair in ((b, c), (c, d))])
+
+
+def write_files(robot: Json, folder: Path) -> Path:
+    """Write ``robot.urdf``, ``robot.srdf``, and the meshes of a robot into a folder, and return the path of the URDF file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    root = ET.Element("robot", name="panda")
+    links = [ET.SubElement(root, "link", name=f"link{index}") for index in range(8)]
+    for sphere in robot.get("spheres", []):
+        geometry = _add_collision(links[sphere["link"]], sphere["center"])
+        ET.SubElement(geometry, "sphere", radius=repr(float(sphere["radius"])))
+    for index, piece in enumerate(robot.get("pieces", [])):
+        _write_stl(folder / f"piece{index}.stl", piece["vertices"][piece["faces"]])
+        ET.SubElement(_add_collision(links[piece["link"]], (0, 0, 0)), "mesh", filename=str(folder / f"piece{index}.stl"))
+    ET.SubElement(root, "link", name="tool")
+    for index, origin in enumerate([*robot["joint_origins"], robot["tool"]]):
+        fixed = index == 7
+        joint = ET.SubElement(
+            root, "joint", name="tool_joint" if fixed else f"joint{index + 1}", type="fixed" if fixed else "revolute"
+        )
+        ET.SubElement(joint, "parent", link=f"link{index}")
+        ET.SubElement(joint, "child", link="tool" if fixed else f"link{index + 1}")
+        ET.SubElement(joint, "origin", xyz=_words(np.asarray(origin)[:3, 3]), rpy=_words(_rpy(np.asarray(origin))))
+        if not fixed:
+            ET.SubElement(joint, "axis", xyz="0 0 1")
+            lower, upper = (repr(float(robot[side][index])) for side in ("lower", "upper"))
+            ET.SubElement(joint, "limit", lower=lower, upper=upper, velocity="2.0", effort="87")
+    ET.ElementTree(root).write(folder / "robot.urdf")
+    srdf = ET.Element("robot", name="panda")
+    checked = {tuple(pair) for pair in robot["self_pairs"]}
+    for first in range(8):
+        for second in range(first + 1, 8):
+            if (first, second) not in checked:
+                names = {"link1": f"link{first}", "link2": f"link{second}"}
+                ET.SubElement(srdf, "disable_collisions", names, reason="Benchmark")
+    ET.ElementTree(srdf).write(folder / "robot.srdf")
+    return folder / "robot.urdf"
+
+
+def _add_collision(link: ET.Element, xyz: Any) -> ET.Element:
+    collision = ET.SubElement(link, "collision")
+    ET.SubElement(collision, "origin", xyz=_words(xyz), rpy="0 0 0")
+    return ET.SubElement(collision, "geometry")
+
+
+def _words(numbers: Any) -> str:
+    return " ".join(repr(float(number)) for number in numbers)
+
+
+def _rpy(pose: Floats) -> Floats:
+    pitch = np.arctan2(-pose[2, 0], np.hypot(pose[2, 1], pose[2, 2]))
+    return np.array([np.arctan2(pose[2, 1], pose[2, 2]), pitch, np.arctan2(pose[1, 0], pose[0, 0])])
+
+
+def _write_stl(file: Path, triangles: Floats) -> None:
+    rows = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    rows["corners"] = triangles
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    rows["normal"] = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+    file.write_bytes(bytes(80) + np.uint32(len(rows)).tobytes() + rows.tobytes())
