@@ -27,12 +27,13 @@ CONTACTS: dict[str, Any] = {"spheres": SphereContacts, "meshes": MeshContacts}
 
 def run_problem(planner: Planner, problem: Problem, goals: Floats, seconds: float) -> Json:
     """Return the answer of a planner with its times as a record."""
-    wall, processor = time.perf_counter(), time.process_time()
     if planner.needs_goals and not len(goals):
         answer = Answer("undecided", None, "no goal configuration found")
+        times: Json = {"processor_s": None, "wall_s": None}
     else:
+        wall, processor = time.perf_counter(), time.process_time()
         answer = planner.solve(problem, goals, seconds)
-    times = {"processor_s": time.process_time() - processor, "wall_s": time.perf_counter() - wall}
+        times = {"processor_s": time.process_time() - processor, "wall_s": time.perf_counter() - wall}
     path = None if answer.path is None else answer.path.tolist()
     return {"verdict": answer.verdict, "note": answer.note, "path": path, **times}
 
@@ -45,8 +46,8 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
     urdf = write_files(robot, options.work / track)
     for name in options.planner or ADAPTERS:
         adapter = ADAPTERS[name]
-        if not adapter.version():
-            print(f"{name} is skipped: it is not installed; install it with: pip install {adapter.package}", file=sys.stderr)
+        if adapter.missing():
+            print(f"{name} is skipped: {adapter.missing()}", file=sys.stderr)
         elif track not in adapter.tracks:
             print(f"{name} is skipped on the track {track}, because it has its own robot model", file=sys.stderr)
         elif any((track, problem.name, name) not in done for problem in problems):

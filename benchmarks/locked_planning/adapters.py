@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,12 +31,12 @@ class Planner:
     """Planner for one robot; subclasses override the attributes and :meth:`solve`.
 
     Attributes:
-        package: Name of the package on PyPI.
+        package, module: Names of the package on PyPI and in Python.
         tracks: Tracks on which it can run.
         needs_goals: True if it takes goal configurations, which the runner finds outside the measured time.
     """
 
-    package = ""
+    package = module = ""
     tracks: tuple[str, ...] = ("spheres", "meshes")
     needs_goals = True
 
@@ -42,15 +44,20 @@ class Planner:
         self.robot, self.urdf = robot, urdf
 
     @classmethod
+    def missing(cls) -> str:
+        """Return why the planner cannot run, or an empty string if it can."""
+        return "" if find_spec(cls.module) else f"it is not installed; install it with: pip install {cls.package}"
+
+    @classmethod
     def version(cls) -> str:
-        """Return the version of the package, or an empty string if it is not installed."""
+        """Return the version of the package."""
         try:
             return version(cls.package)
         except PackageNotFoundError:
-            return ""
+            return str(import_module(cls.module).__version__)
 
     def solve(self, problem: Problem, goals: Floats, seconds: float) -> Answer:
-        """Return the answer within a time limit; the runner measures the time of this method."""
+        """Return the answer within a time limit, s; the runner measures this method."""
         raise NotImplementedError
 
 
@@ -72,20 +79,15 @@ def _exact_ends(path: Any, problem: Problem, goal: Floats) -> Floats:
 class Holdfast(Planner):
     """:func:`holdfast.recover`; a healthy problem is an arm with the whole range of its first joint."""
 
-    package, needs_goals = "holdfast", False
-
-    @classmethod
-    def version(cls) -> str:
-        import holdfast
-
-        return holdfast.__version__
+    package = module = "holdfast"
+    needs_goals = False
 
     def __init__(self, robot: Json, urdf: Path) -> None:
         import holdfast as hf
 
         super().__init__(robot, urdf)
         self.arm = hf.arms.load(str(urdf), srdf=urdf.with_suffix(".srdf"))
-        self.clearance = hf.Clearance(self.arm, cell=hf.Cell([], shape="meshes"))
+        self.clearance: Any = hf.Clearance(self.arm, cell=hf.Cell([], shape="meshes"))
 
     def cell_clearance(self, problem: Problem) -> Any:
         """Return the clearance among the objects of a problem."""
@@ -128,30 +130,31 @@ class Vamp(Planner):
     A lock is a sampling box without width, which needs the change ``vamp_lock.patch`` of VAMP's source.
     """
 
-    package, tracks = "vamp-planner", ("spheres",)
+    package, module = "vamp-planner", "vamp"
+    tracks = ("spheres",)
 
     def __init__(self, robot: Json, urdf: Path) -> None:
         import vamp
 
         super().__init__(robot, urdf)
         self.vamp = vamp
-        self.module, self.plan, self.settings, self.simplify = vamp.configure_robot_and_planner_with_kwargs("panda", "rrtc")
-        self.sampler = self.module.halton()
+        self.panda, self.plan, self.settings, self.simplify = vamp.configure_robot_and_planner_with_kwargs("panda", "rrtc")
+        self.sampler = self.panda.halton()
 
     def solve(self, problem: Problem, goals: Floats, seconds: float) -> Answer:
-        if problem.joint is not None and not hasattr(self.module, "set_sampling_box"):
+        if problem.joint is not None and not hasattr(self.panda, "set_sampling_box"):
             return Answer("undecided", None, "a lock needs VAMP with vamp_lock.patch")
-        if hasattr(self.module, "set_sampling_box"):
+        if hasattr(self.panda, "set_sampling_box"):
             lower, upper = np.array(self.robot["lower"]), np.array(self.robot["upper"])
             if problem.joint is not None:
                 lower[problem.joint] = upper[problem.joint] = problem.value
-            self.module.set_sampling_box(lower.tolist(), upper.tolist())
+            self.panda.set_sampling_box(lower.tolist(), upper.tolist())
         environment = self._environment(problem)
         self.sampler.reset()
         result = self.plan(problem.start.tolist(), goals.tolist(), environment, self.settings, self.sampler)
         if not result.solved:
             return Answer("undecided", None, "no path found")
-        path = self.module.simplify(result.path, environment, self.simplify, self.sampler).path.numpy()
+        path = self.panda.simplify(result.path, environment, self.simplify, self.sampler).path.numpy()
         return Answer("solved", _exact_ends(path, problem, goals[np.abs(goals - path[-1]).max(axis=1).argmin()]))
 
     def _environment(self, problem: Problem) -> Any:
@@ -170,10 +173,10 @@ class Vamp(Planner):
 
 
 class Ompl(Holdfast):
-    """OMPL's RRT-Connect and simplification at its default resolution, with holdfast's bound of the distance as validity check."""
+    """RRT-Connect and simplification of OMPL at its default resolution; holdfast's bound of the distance checks states."""
 
-    package, needs_goals = "ompl", True
-    version = Planner.version
+    package = module = "ompl"
+    needs_goals = True
 
     def solve(self, problem: Problem, goals: Floats, seconds: float) -> Answer:
         from ompl import base, geometric, util
@@ -218,7 +221,7 @@ class Ompl(Holdfast):
 class Roboplan(Planner):
     """RRT-Connect and shortcuts of roboplan at its default step of 0.05 rad; the goals are tried in turn."""
 
-    package = "roboplan"
+    package = module = "roboplan"
 
     def __init__(self, robot: Json, urdf: Path) -> None:
         from roboplan import core, rrt
@@ -239,6 +242,7 @@ class Roboplan(Planner):
                 self.scene.addBoxGeometry(name, "universe", self.core.Box(*o["size"]), pose, color)
             else:
                 self.scene.addCylinderGeometry(name, "universe", self.core.Cylinder(o["radius"], o["length"]), pose, color)
+        self.scene.setCollisions([(one, other) for one in names for other in names if one < other], False)
         try:
             return self._plan(problem, goals, seconds)
         finally:
@@ -268,7 +272,13 @@ class Roboplan(Planner):
 class Mplib(Planner):
     """RRT-Connect and simplification of MPlib, without its timed trajectory."""
 
-    package = "mplib"
+    package = module = "mplib"
+
+    @classmethod
+    def missing(cls) -> str:
+        if not super().missing() and int(np.__version__.split(".")[0]) > 1:
+            return "it crashes with NumPy 2; run it in an environment of its own with: pip install mplib 'numpy<2' scipy"
+        return super().missing()
 
     def __init__(self, robot: Json, urdf: Path) -> None:
         import mplib

@@ -17,11 +17,11 @@ DAMPING = 1e-4
 def find_goal_configurations(robot: Json, problem: Problem, contacts: Any, seed: int = 0) -> Floats:
     """Return up to 8 collision-free configurations (K, 7) of the goal pose with the lock, rad, nearest to the start first.
 
-    A healthy problem has the configuration of the archive. For a lock, damped Newton steps start from 128 random configurations,
-    which proves nothing if they find none.
+    A healthy problem has the configuration of the archive. For a lock, damped Newton steps start from 128 random
+    configurations. If they find none, this proves nothing.
     """
     if problem.goal is not None:
-        return problem.goal[None]
+        return np.array([problem.goal], dtype=float)
     lower, upper = np.asarray(robot["lower"]), np.asarray(robot["upper"])
     free = np.arange(7) != problem.joint
     q = np.random.default_rng(seed).uniform(lower, upper, (STARTS, 7))
@@ -43,7 +43,7 @@ def find_goal_configurations(robot: Json, problem: Problem, contacts: Any, seed:
     for candidate in q[np.argsort(np.linalg.norm(q - problem.start, axis=1))]:
         if all(np.abs(candidate - other).max() > 1e-3 for other in found):
             found.append(candidate)
-    return np.array(found[:MAX_GOALS]).reshape(-1, 7)
+    return np.array(found[:MAX_GOALS], dtype=float).reshape(-1, 7)
 
 
 def _pose_error(robot: Json, q: Floats, goal: Floats) -> tuple[Floats, Floats]:

@@ -49,7 +49,7 @@ class MeshContacts:
         request = self.fcl.CollisionRequest(num_max_contacts=1, enable_contact=True)
         if not self.fcl.collide(one, other, request, result):
             return 0.0
-        return max([abs(contact.penetration_depth) for contact in result.contacts] + [1e-9])
+        return max([abs(float(contact.penetration_depth)) for contact in result.contacts] + [1e-9])
 
     def distances(self, q: Floats) -> tuple[Floats, list[str]]:
         """Return (N,) minus the depth of the first overlap found at each configuration, m, or 0, and the names of the parts."""

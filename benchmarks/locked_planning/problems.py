@@ -31,7 +31,7 @@ class Problem:
     """One planning problem.
 
     Attributes:
-        name: Scene and number, for example ``box/0007``; with a lock also the joint and the kind of value, ``box/0007/j4/start``.
+        name: Scene and number, ``box/0007``; with a lock also the joint and the kind of its value, ``box/0007/j4/start``.
         start: (7,) start configuration, rad; the locked joint is at its value.
         goal_pose: (4, 4) pose of the tool to reach, m.
         objects: Boxes, cylinders, capsules, and spheres as in the archive, m.
@@ -138,8 +138,8 @@ def make_healthy(data: list[Json], robot: Json) -> list[Problem]:
 def make_locked(healthy: list[Problem]) -> list[Problem]:
     """Return the locked problems, 14 per healthy problem: each joint at its start value and at a random value.
 
-    The random values were drawn uniformly within the joint limits and are stored in ``locks.csv``, so that they do not depend on
-    a random number generator.
+    The random values were drawn uniformly within the joint limits. ``locks.csv`` contains them, so that they do not depend on a
+    random number generator.
     """
     with LOCKS_FILE.open(newline="") as lines:
         random_values = {row[0]: [float(value) for value in row[1:]] for row in csv.reader(lines)}

@@ -38,7 +38,7 @@ def path_length(path: Any) -> float:
 
 
 def find_contradictions(records: Iterable[Json]) -> list[str]:
-    """Return a sentence for each problem that a planner proved infeasible and that another one solved with an accepted path."""
+    """Return a sentence for each problem that one planner proved infeasible and another one solved."""
     solved: dict[tuple[str, str], list[str]] = {}
     proved: dict[tuple[str, str], list[str]] = {}
     for record in records:
@@ -67,7 +67,7 @@ def make_table(records: list[Json]) -> str:
         "[README.md](README.md) describes the columns and the command that writes this page.",
         "",
         "| track | arm | planner | problems | solved | proved infeasible | undecided | refused by the validator "
-        "| processor time, median (ms) | 95 % (ms) | path length / best, median |",
+        "| ms if solved, median / 95 % | ms if not, median / 95 % | path length / best, median |",
         "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for (track, kind, planner), rows in sorted(groups.items()):
@@ -80,17 +80,23 @@ def make_table(records: list[Json]) -> str:
             verdicts.count("undecided"),
             verdicts.count("solved") - len(accepted),
         )
-        middle, late = np.quantile([1e3 * row["processor_s"] for row in rows], [0.5, 0.95])
+        times = [_describe_times([row for row in rows if (row["verdict"] == "solved") == solved]) for solved in (True, False)]
         ratios = [row["length"] / max(best[track, row["problem"]], 1e-12) for row in accepted]
         length = f"{np.median(ratios):.3f}" if ratios else ""
         name = f"{planner} {rows[0]['version']}"
-        lines.append(f"| {track} | {kind} | {name} | {' | '.join(map(str, counts))} | {middle:.3g} | {late:.3g} | {length} |")
+        lines.append(f"| {track} | {kind} | {name} | {' | '.join(map(str, counts))} | {' | '.join(times)} | {length} |")
     contradictions = find_contradictions(records)
     lines += ["", "## Contradictions", "", *(f"- {line}" for line in contradictions or ["None."])]
     refused = [row for row in records if row["verdict"] == "solved" and row["violation"]]
     lines += ["", "## Refused paths", ""]
     lines += [f"- {row['planner']}, {row['problem']} ({row['track']}): {row['check']}" for row in refused] or ["- None."]
     return "\n".join(lines) + "\n"
+
+
+def _describe_times(rows: list[Json]) -> str:
+    """Return the median and the 95 % quantile of the processor times, ms."""
+    times = [1e3 * row["processor_s"] for row in rows if row["processor_s"] is not None]
+    return " / ".join(f"{value:.3g}" for value in np.quantile(times, [0.5, 0.95])) if times else ""
 
 
 def round_path(robot: Json, problem: Problem, path: Any, make_contacts: Any) -> list[list[float]] | None:
@@ -101,7 +107,7 @@ def round_path(robot: Json, problem: Problem, path: Any, make_contacts: Any) -> 
         if problem.joint is not None:
             q[:, problem.joint] = problem.value
         if validate(robot, problem.to_dict(), q, make_contacts).is_accepted:
-            return q.tolist()
+            return [[float(x) for x in row] for row in q]
     return None
 
 

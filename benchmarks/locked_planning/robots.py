@@ -17,7 +17,7 @@ Json = dict[str, Any]
 ROBOT_VARIABLE = "VAMP_PANDA_SPHERES"  # path of VAMP's panda_spherized.urdf, or of a robot as JSON
 BASE, LAST_LINK, TOOL = "panda_link0", "panda_link7", "panda_grasptarget"
 SELF_PAIRS = [[0, 5], [0, 6], [0, 7], [1, 5], [1, 6], [1, 7], [2, 5], [2, 7], [5, 7]]  # of the archive's collision matrix
-FINGER_POSITION_M = 0.04  # fully open; the sphere model has its fingers further apart than the gripper can open
+FINGER_POSITION_M = 0.065  # of the archive and the sphere model, further apart than the real gripper opens (0.04)
 
 
 def load_robot(track: str, path: str | Path | None = None) -> Json:
@@ -39,7 +39,7 @@ def load_robot(track: str, path: str | Path | None = None) -> Json:
     robot = _read_json(json.loads(text)) if str(given).endswith(".json") else _read_urdf(text)
     if track == "meshes":
         del robot["spheres"]
-        robot["pieces"] = _mesh_pieces()
+        robot["pieces"] = _mesh_pieces(np.asarray(robot["tool"])[:3, 1])
     return robot
 
 
@@ -57,7 +57,8 @@ def _read_urdf(text: str) -> Json:
     root = ET.fromstring(text)
     joints = {_get(joint, "child", "link"): joint for joint in root.iter("joint") if joint.find("child") is not None}
     robot: Json = {"lower": [], "upper": [], "joint_origins": [], "self_pairs": SELF_PAIRS, "spheres": []}
-    chain, name = [], LAST_LINK
+    chain: list[ET.Element] = []
+    name = LAST_LINK
     while name != BASE:
         chain.insert(0, joints[name])
         name = _get(joints[name], "parent", "link")
@@ -107,17 +108,21 @@ def _origin(element: ET.Element) -> Floats:
     return pose
 
 
-def _mesh_pieces() -> list[Json]:
-    """Return the collision meshes and boxes of holdfast's built-in Panda, in the frames of the links that they move with."""
-    from holdfast.model.collision.shape import CollisionModel
+def _mesh_pieces(finger_axis: Floats) -> list[Json]:
+    """Return the collision meshes and boxes of holdfast's built-in Panda, in the frames of the links that they move with.
 
+    The fingers move along the axis, a unit vector in the frame of the last link.
+    """
     import holdfast as hf
 
-    model = CollisionModel.from_arm(hf.arms.load("panda"), hold={"panda_finger_joint1": FINGER_POSITION_M})
+    panda, cell = hf.arms.load("panda"), hf.Cell([], shape="meshes", hold={"panda_finger_joint1": 0.0})
     pieces = []
-    for piece in model.pieces:
+    shape = hf.Clearance(panda, cell=cell).capsules.shape
+    for piece in [] if shape is None else shape.pieces:
         vertices, faces = _box_mesh(piece.size) if piece.kind == "box" else (piece.vertices, piece.faces)
-        pose = np.asarray(piece.pose)
+        pose = np.array(piece.pose)
+        sign = {"panda_leftfinger": 1.0, "panda_rightfinger": -1.0}.get(piece.owner, 0.0)
+        pose[:3, 3] += sign * FINGER_POSITION_M * finger_axis
         placed = np.asarray(vertices) @ pose[:3, :3].T + pose[:3, 3]
         pieces.append({"link": piece.link + 1, "vertices": placed, "faces": np.asarray(faces, dtype=int)})
     return pieces

@@ -1,7 +1,7 @@
 """Validator: decide whether a path solves a problem, in plain NumPy that shares no code with any planner.
 
-A robot is a dictionary of numbers: ``lower`` and ``upper`` (7,) in rad, ``joint_origins`` (7, 4, 4), each in the frame of the
-previous link at angle 0 and with the joint axis along its z axis, ``tool`` (4, 4) in the frame of the last link, ``spheres`` with
+A robot is a dictionary: ``lower`` and ``upper`` (7,) in rad, ``joint_origins`` (7, 4, 4), each in the frame of the previous
+link at angle 0 and with the joint axis along its z axis, ``tool`` (4, 4) in the frame of the last link, ``spheres`` with
 ``link`` (0 is the base), ``center``, and ``radius`` in m, and ``self_pairs``, the pairs of links that must not touch.
 """
 
@@ -30,8 +30,7 @@ class Verdict:
     """Verdict about a path.
 
     Attributes:
-        kind: Kind of the first violation, in the order ``path``, ``start``, ``limits``, ``lock``, ``goal``, ``contact``; empty if
-            the path solves the problem.
+        kind: First violation in the order ``path``, ``start``, ``limits``, ``lock``, ``goal``, ``contact``; empty if accepted.
         sentence: Verdict in one sentence.
     """
 
@@ -45,7 +44,7 @@ class Verdict:
 
 
 def forward_kinematics(robot: Json, q: Floats) -> tuple[Floats, Floats]:
-    """Return the poses of the links (N, 8, 4, 4), the base first, and of the tool (N, 4, 4), m, at configurations (N, 7), rad."""
+    """Return the poses of the links (N, 8, 4, 4), the base first, and of the tool (N, 4, 4), m, at angles (N, 7), rad."""
     poses = np.empty((len(q), len(robot["joint_origins"]) + 1, 4, 4))
     poses[:, 0] = np.eye(4)
     for joint, origin in enumerate(np.asarray(robot["joint_origins"])):
@@ -127,8 +126,6 @@ class SphereContacts:
         every = np.arange(len(q))
         middles = {link: place(link, self.middle[link][None]) for link in self.links}
         for link in self.links:
-            if link == 0 and len(self.links) > 1:
-                continue  # the base does not move, and a table may touch it
             for shape in self.objects:
                 bound = signed_distances(shape, middles[link][:, 0]) - self.reach[link]
                 near = np.flatnonzero(bound < 0)
@@ -179,7 +176,7 @@ def validate(
         return Verdict("start", f"refused: the path begins {miss:.3g} rad from the start configuration")
     excess = np.maximum(np.asarray(robot["lower"]) - waypoints, waypoints - np.asarray(robot["upper"]))
     if (worst := float(excess.max())) > LIMIT_TOLERANCE_RAD:
-        row, joint = np.unravel_index(int(excess.argmax()), excess.shape)
+        row, joint = divmod(int(excess.argmax()), size)
         return Verdict("limits", f"refused: joint {joint + 1} is {worst:.3g} rad outside its limits at waypoint {row}")
     lock = problem.get("lock")
     if lock and (moved := float(np.abs(waypoints[:, lock["joint"]] - lock["value"]).max())) > LOCK_TOLERANCE_RAD:
@@ -196,7 +193,7 @@ def validate(
     for begin in range(0, len(q), BATCH_CONFIGURATIONS):
         distances, names = contacts.distances(q[begin : begin + BATCH_CONFIGURATIONS])
         if (distances < 0).any():
-            row = int(np.argmax(distances < 0))
-            place = f"at waypoint {index[begin + row]:.3f} of {len(waypoints) - 1}"
-            return Verdict("contact", f"refused: {names[row]} overlap by {-1e3 * distances[row]:.3g} mm {place}")
+            first = int(np.argmax(distances < 0))
+            place = f"at waypoint {index[begin + first]:.3f} of {len(waypoints) - 1}"
+            return Verdict("contact", f"refused: {names[first]} overlap by {-1e3 * distances[first]:.3g} mm {place}")
     return Verdict("", f"accepted: {len(q)} configurations are free of contact")
