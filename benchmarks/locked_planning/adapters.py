@@ -83,32 +83,27 @@ class Holdfast(Planner):
     needs_goals = False
 
     def __init__(self, robot: Json, urdf: Path) -> None:
-        import holdfast as hf
-
         super().__init__(robot, urdf)
-        self.arm = hf.arms.load(str(urdf), srdf=urdf.with_suffix(".srdf"))
-        self.clearance: Any = hf.Clearance(self.arm, cell=hf.Cell([], shape="meshes"))
+        self.hf: Any = import_module("holdfast")
+        self.arm = self.hf.arms.load(str(urdf), srdf=urdf.with_suffix(".srdf"))
+        self.clearance = self.hf.Clearance(self.arm, cell=self.hf.Cell([], shape="meshes"))
 
     def cell_clearance(self, problem: Problem) -> Any:
         """Return the clearance among the objects of a problem."""
-        import holdfast as hf
-
         makers = {
-            "box": lambda o: hf.cell.Box(o["name"], o["size"], pose=_pose(o)),
-            "cylinder": lambda o: hf.cell.Cylinder(o["name"], o["radius"], o["length"], pose=_pose(o)),
-            "capsule": lambda o: hf.cell.Capsule(o["name"], o["radius"], o["length"], pose=_pose(o)),
-            "sphere": lambda o: hf.cell.Sphere(o["name"], o["radius"], pose=_pose(o)),
+            "box": lambda o: self.hf.cell.Box(o["name"], o["size"], pose=_pose(o)),
+            "cylinder": lambda o: self.hf.cell.Cylinder(o["name"], o["radius"], o["length"], pose=_pose(o)),
+            "capsule": lambda o: self.hf.cell.Capsule(o["name"], o["radius"], o["length"], pose=_pose(o)),
+            "sphere": lambda o: self.hf.cell.Sphere(o["name"], o["radius"], pose=_pose(o)),
         }
-        return self.clearance.with_cell(hf.Cell([makers[o["kind"]](o) for o in problem.objects], shape="meshes"))
+        return self.clearance.with_cell(self.hf.Cell([makers[o["kind"]](o) for o in problem.objects], shape="meshes"))
 
     def solve(self, problem: Problem, goals: Floats, seconds: float) -> Answer:
-        import holdfast as hf
-
         if problem.joint is None:
-            degraded = hf.Degraded(self.arm, ranges={0: (self.arm.lower[0], self.arm.upper[0])})
+            degraded = self.hf.Degraded(self.arm, ranges={0: (self.arm.lower[0], self.arm.upper[0])})
         else:
-            degraded = hf.Degraded(self.arm, locked={problem.joint: problem.value})
-        recovery = hf.recover(
+            degraded = self.hf.Degraded(self.arm, locked={problem.joint: problem.value})
+        recovery = self.hf.recover(
             self.arm,
             degraded,
             problem.start,

@@ -24,21 +24,17 @@ def find_goal_configurations(robot: Json, problem: Problem, contacts: Any, seed:
         return np.array([problem.goal], dtype=float)
     lower, upper = np.asarray(robot["lower"]), np.asarray(robot["upper"])
     free = np.arange(7) != problem.joint
-    q = np.random.default_rng(seed).uniform(lower, upper, (STARTS, 7))
+    q: Floats = np.random.default_rng(seed).uniform(lower, upper, (STARTS, 7))
     q[:, ~free] = problem.value
     for _ in range(ITERATIONS):
         error, jacobian = _pose_error(robot, q, problem.goal_pose)
         jacobian[:, :, ~free] = 0.0
-        square = jacobian @ jacobian.swapaxes(1, 2) + DAMPING * np.minimum(1.0, (error**2).sum(axis=1))[:, None, None] * np.eye(
-            6
-        )
-        square += 1e-12 * np.eye(6)
+        damping = DAMPING * np.minimum(1.0, (error**2).sum(axis=1)) + 1e-12
+        square = jacobian @ jacobian.swapaxes(1, 2) + damping[:, None, None] * np.eye(6)
         steps = (jacobian.swapaxes(1, 2) @ np.linalg.solve(square, error[..., None]))[..., 0]
         q = np.clip(q + steps * np.minimum(1.0, 0.5 / np.abs(steps).max(axis=1, keepdims=True).clip(1e-12)), lower, upper)
     q = q[np.abs(_pose_error(robot, q, problem.goal_pose)[0]).max(axis=1) < 1e-6]
-    if not len(q):
-        return q
-    q = q[contacts.distances(q)[0] >= 0]
+    q = q[contacts.distances(q)[0] >= 0] if len(q) else q
     found: list[Floats] = []
     for candidate in q[np.argsort(np.linalg.norm(q - problem.start, axis=1))]:
         if all(np.abs(candidate - other).max() > 1e-3 for other in found):

@@ -45,8 +45,8 @@ def find_contradictions(records: Iterable[Json]) -> list[str]:
         chosen = solved if is_accepted(record) else proved if record["verdict"] == "proved infeasible" else {}
         chosen.setdefault((record["track"], record["problem"]), []).append(record["planner"])
     return [
-        f"{problem} ({track}): {', '.join(proved[track, problem])} proved it infeasible, and the validator accepted the path of "
-        f"{', '.join(solved[track, problem])}"
+        f"{problem} ({track}): {', '.join(proved[track, problem])} proved it infeasible, and the validator accepted the path "
+        f"of {', '.join(solved[track, problem])}"
         for track, problem in sorted(solved.keys() & proved.keys())
     ]
 
