@@ -228,6 +228,12 @@ def test_meshes_touch_where_their_boxes_overlap(robot, files):
         assert (MeshContacts(meshes, [ball]).distances(START[None])[0][0] < 0) == touches
     for shape in SHAPES:
         assert MeshContacts(meshes, [placed(shape, corner, name="x")]).distances(START[None])[1][0].endswith("'x'")
+    q = np.random.default_rng(0).uniform(LOWER, UPPER, (150, 7))
+    contacts = MeshContacts(meshes, [placed(shape, (0.4, 0.3, 0.6)) for shape in SHAPES[:2]])
+    distances, _ = contacts.distances(q)
+    contacts.reach[:] = 10.0
+    assert 0.1 < (distances < 0).mean() < 0.9
+    np.testing.assert_array_equal(contacts.distances(q)[0] < 0, distances < 0, "the bounding spheres hide a contact")
     folded = np.array([[0.0, 0.0, 0.0, -3.0, 0.0, 0.1, 0.0]])
     assert MeshContacts(meshes, []).distances(folded)[0][0] < 0, "the hand is inside the arm"
 
@@ -243,10 +249,10 @@ def test_the_robot_of_a_urdf_file_is_that_of_pinocchio(tmp_path, rng):
         for k in range(7)
     )
     hand = '<origin xyz="0.1 0 0.2" rpy="0.1 0.2 -0.7"/>'
+    tool = '<joint name="t" type="fixed"><parent link="hand"/><child link="panda_grasptarget"/><origin xyz="0 0 0.1"/></joint>'
     text = (
-        f'<robot name="r">{links}<link name="hand">{ball}</link><link name="panda_grasptarget"/>{joints}'
-        f'<joint name="h" type="fixed"><parent link="panda_link7"/><child link="hand"/>{hand}</joint>'
-        '<joint name="t" type="fixed"><parent link="hand"/><child link="panda_grasptarget"/><origin xyz="0 0 0.1"/></joint></robot>'
+        f'<robot name="r">{links}<link name="hand">{ball}</link><link name="panda_grasptarget"/>{joints}{tool}'
+        f'<joint name="h" type="fixed"><parent link="panda_link7"/><child link="hand"/>{hand}</joint></robot>'
     )
     (tmp_path / "panda_spherized.urdf").write_text(text)
     robot = load_robot("spheres", tmp_path / "panda_spherized.urdf")
