@@ -168,7 +168,7 @@ class Vamp(Planner):
 
 
 class Ompl(Holdfast):
-    """RRT-Connect and simplification of OMPL at its default resolution; holdfast's bound of the distance checks states."""
+    """RRT-Connect and simplification of OMPL at its default resolution; holdfast's exact distances check states."""
 
     package = module = "ompl"
     needs_goals = True
@@ -198,7 +198,7 @@ class Ompl(Holdfast):
             return state
 
         setup = geometric.SimpleSetup(space)
-        setup.setStateValidityChecker(lambda state: bool(clearance.margin_left(configuration(state)) >= 0))
+        setup.setStateValidityChecker(lambda state: bool(clearance.sign(configuration(state))))
         setup.setStartState(state_of(problem.start))
         ends = base.GoalStates(setup.getSpaceInformation())
         for goal in goals:

@@ -87,9 +87,6 @@ def make_table(records: list[Json]) -> str:
         lines.append(f"| {track} | {kind} | {name} | {' | '.join(map(str, counts))} | {' | '.join(times)} | {length} |")
     contradictions = find_contradictions(records)
     lines += ["", "## Contradictions", "", *(f"- {line}" for line in contradictions or ["None."])]
-    refused = [row for row in records if row["verdict"] == "solved" and row["violation"]]
-    lines += ["", "## Refused paths", ""]
-    lines += [f"- {row['planner']}, {row['problem']} ({row['track']}): {row['check']}" for row in refused] or ["- None."]
     return "\n".join(lines) + "\n"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import xml.etree.ElementTree as ET
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -137,52 +138,39 @@ def _box_mesh(size: Any) -> tuple[Floats, NDArray[np.int64]]:
 def write_files(robot: Json, folder: Path) -> Path:
     """Write ``robot.urdf``, ``robot.srdf``, and the meshes of a robot into a folder, and return the path of the URDF file."""
     folder.mkdir(parents=True, exist_ok=True)
-    root = ET.Element("robot", name="panda")
-    links = [ET.SubElement(root, "link", name=f"link{index}") for index in range(8)]
+    collisions = [""] * 8
     for sphere in robot.get("spheres", []):
-        geometry = _add_collision(links[sphere["link"]], sphere["center"])
-        ET.SubElement(geometry, "sphere", radius=repr(float(sphere["radius"])))
+        collisions[sphere["link"]] += _collision(f'<sphere radius="{float(sphere["radius"])!r}"/>', sphere["center"])
     for index, piece in enumerate(robot.get("pieces", [])):
-        _write_stl(folder / f"piece{index}.stl", piece["vertices"][piece["faces"]])
-        ET.SubElement(_add_collision(links[piece["link"]], (0, 0, 0)), "mesh", filename=str(folder / f"piece{index}.stl"))
-    ET.SubElement(root, "link", name="tool")
-    for index, origin in enumerate([*robot["joint_origins"], robot["tool"]]):
-        fixed = index == 7
-        joint = ET.SubElement(
-            root, "joint", name="tool_joint" if fixed else f"joint{index + 1}", type="fixed" if fixed else "revolute"
-        )
-        ET.SubElement(joint, "parent", link=f"link{index}")
-        ET.SubElement(joint, "child", link="tool" if fixed else f"link{index + 1}")
-        ET.SubElement(joint, "origin", xyz=_words(np.asarray(origin)[:3, 3]), rpy=_words(_rpy(np.asarray(origin))))
-        if not fixed:
-            ET.SubElement(joint, "axis", xyz="0 0 1")
-            lower, upper = (repr(float(robot[side][index])) for side in ("lower", "upper"))
-            ET.SubElement(joint, "limit", lower=lower, upper=upper, velocity="2.0", effort="87")
-    ET.ElementTree(root).write(folder / "robot.urdf")
-    srdf = ET.Element("robot", name="panda")
-    checked = {tuple(pair) for pair in robot["self_pairs"]}
-    for first in range(8):
-        for second in range(first + 1, 8):
-            if (first, second) not in checked:
-                names = {"link1": f"link{first}", "link2": f"link{second}"}
-                ET.SubElement(srdf, "disable_collisions", names, reason="Benchmark")
-    ET.ElementTree(srdf).write(folder / "robot.srdf")
+        file = folder / f"piece{index}.stl"
+        _write_stl(file, piece["vertices"][piece["faces"]])
+        collisions[piece["link"]] += _collision(f'<mesh filename="{file}"/>', (0, 0, 0))
+    parts = [f'<link name="link{index}">{content}</link>' for index, content in enumerate(collisions)]
+    for index, pose in enumerate(np.asarray(robot["joint_origins"])):
+        lower, upper = (float(robot[side][index]) for side in ("lower", "upper"))
+        limit = f'<axis xyz="0 0 1"/><limit lower="{lower!r}" upper="{upper!r}" velocity="2" effort="87"/>'
+        parts.append(_joint(f"joint{index + 1}", "revolute", f"link{index}", f"link{index + 1}", pose, limit))
+    parts += ['<link name="tool"/>', _joint("tool_joint", "fixed", "link7", "tool", np.asarray(robot["tool"]), "")]
+    (folder / "robot.urdf").write_text('<robot name="panda">' + "\n".join(parts) + "</robot>\n")
+    ignored = [pair for pair in combinations(range(8), 2) if list(pair) not in robot["self_pairs"]]
+    rows = [f'<disable_collisions link1="link{one}" link2="link{other}" reason="Benchmark"/>' for one, other in ignored]
+    (folder / "robot.srdf").write_text('<robot name="panda">' + "\n".join(rows) + "</robot>\n")
     return folder / "robot.urdf"
 
 
-def _add_collision(link: ET.Element, xyz: Any) -> ET.Element:
-    collision = ET.SubElement(link, "collision")
-    ET.SubElement(collision, "origin", xyz=_words(xyz), rpy="0 0 0")
-    return ET.SubElement(collision, "geometry")
+def _collision(shape: str, xyz: Any) -> str:
+    return f'<collision><origin xyz="{_words(xyz)}"/><geometry>{shape}</geometry></collision>'
+
+
+def _joint(name: str, kind: str, parent: str, child: str, pose: Floats, limit: str) -> str:
+    pitch = np.arctan2(-pose[2, 0], np.hypot(pose[2, 1], pose[2, 2]))
+    rpy = np.arctan2(pose[2, 1], pose[2, 2]), pitch, np.arctan2(pose[1, 0], pose[0, 0])
+    ends = f'<parent link="{parent}"/><child link="{child}"/><origin xyz="{_words(pose[:3, 3])}" rpy="{_words(rpy)}"/>'
+    return f'<joint name="{name}" type="{kind}">{ends}{limit}</joint>'
 
 
 def _words(numbers: Any) -> str:
     return " ".join(repr(float(number)) for number in numbers)
-
-
-def _rpy(pose: Floats) -> Floats:
-    pitch = np.arctan2(-pose[2, 0], np.hypot(pose[2, 1], pose[2, 2]))
-    return np.array([np.arctan2(pose[2, 1], pose[2, 2]), pitch, np.arctan2(pose[1, 0], pose[0, 0])])
 
 
 def _write_stl(file: Path, triangles: Floats) -> None:
