@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import signal
 import sys
 import tempfile
@@ -32,7 +33,10 @@ def run_problem(planner: Planner, problem: Problem, goals: Floats, seconds: floa
         times: Json = {"processor_s": None, "wall_s": None}
     else:
         wall, processor = time.perf_counter(), time.process_time()
-        answer = planner.solve(problem, goals, seconds)
+        try:
+            answer = planner.solve(problem, goals, seconds)
+        except Exception as error:  # of another package; the run goes on, and the record contains the message
+            answer = Answer("undecided", None, f"error: {error!r}")
         times = {"processor_s": time.process_time() - processor, "wall_s": time.perf_counter() - wall}
     path = None if answer.path is None else answer.path.tolist()
     return {"verdict": answer.verdict, "note": answer.note, "path": path, **times}
@@ -54,6 +58,10 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
             planners[name] = adapter(robot, urdf)
             contacts = CONTACTS[track](robot, problems[0].objects)
             run_problem(planners[name], problems[0], find_goal_configurations(robot, problems[0], contacts), options.seconds)
+    with file.open("a+b") as stored:
+        stored.seek(-min(1, stored.tell()), os.SEEK_END)
+        if stored.read() not in (b"", b"\n"):
+            stored.write(b"\n")  # ends a line that an interrupt cut off
     with file.open("a") as lines:
         for number, problem in enumerate(problems):
             open_planners = {name: one for name, one in planners.items() if (track, problem.name, name) not in done}
@@ -107,13 +115,14 @@ def main(arguments: list[str] | None = None) -> int:
         return 1 if refused else 0
     sets = {"healthy": draw(healthy), "locked": locked if options.all_locked else draw(locked)}
     interrupts: list[int] = []
-    signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    previous_handler = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
     options.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         options.work = Path(folder)
         for track in tracks:
             for arm in options.arm or sets:
                 run_track(options, track, sets[arm][: options.count], robots[track], interrupts)
+    signal.signal(signal.SIGINT, previous_handler)
     records = read_results(options.out / "results.jsonl")
     (options.out / "RESULTS.md").write_text(make_table(records))
     print(f"written: {options.out / 'RESULTS.md'}")

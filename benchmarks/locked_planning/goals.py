@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.locked_planning.problems import Problem
 from benchmarks.locked_planning.validator import Floats, Json, forward_kinematics
 
-STARTS = 128
+STARTS = 256
 ITERATIONS = 60
 MAX_GOALS = 8
 DAMPING = 1e-4
@@ -17,7 +17,7 @@ DAMPING = 1e-4
 def find_goal_configurations(robot: Json, problem: Problem, contacts: Any, seed: int = 0) -> Floats:
     """Return up to 8 collision-free configurations (K, 7) of the goal pose with the lock, rad, nearest to the start first.
 
-    A healthy problem has the configuration of the archive. For a lock, damped Newton steps start from 128 random
+    A healthy problem has the configuration of the archive. For a lock, damped Newton steps start from 256 random
     configurations. If they find none, this proves nothing.
     """
     if problem.goal is not None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Json = dict[str, Any]
 
-SOURCE_VARIABLE = "MOTIONBENCHMAKER_PANDA"  # path of the archive, or of a file that `python -m ... convert` wrote
+SOURCE_VARIABLE = "MOTIONBENCHMAKER_PANDA"  # path of the archive, or of its problems as JSON
 STARTS_IN_CONTACT = ("table_pick/0041",)  # everybody skips this problem
 JOINTS = [f"panda_joint{number}" for number in range(1, 8)]
 LOCKS_FILE = Path(__file__).with_name("locks.csv")
@@ -138,8 +138,8 @@ def make_healthy(data: list[Json], robot: Json) -> list[Problem]:
 def make_locked(healthy: list[Problem]) -> list[Problem]:
     """Return the locked problems, 14 per healthy problem: each joint at its start value and at a random value.
 
-    The random values were drawn uniformly within the joint limits. ``locks.csv`` contains them, so that they do not depend on a
-    random number generator.
+    The random values were drawn uniformly within the joint limits until the start configuration of the spheres was free of
+    contact. ``locks.csv`` contains them, so that they do not depend on a random number generator.
     """
     with LOCKS_FILE.open(newline="") as lines:
         random_values = {row[0]: [float(value) for value in row[1:]] for row in csv.reader(lines)}

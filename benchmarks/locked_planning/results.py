@@ -93,7 +93,7 @@ def make_table(records: list[Json]) -> str:
 def _describe_times(rows: list[Json]) -> str:
     """Return the median and the 95 % quantile of the processor times, ms."""
     times = [1e3 * row["processor_s"] for row in rows if row["processor_s"] is not None]
-    return " / ".join(f"{value:.3g}" for value in np.quantile(times, [0.5, 0.95])) if times else ""
+    return " / ".join(f"{x:.3g}" if x < 1000 else f"{x:.0f}" for x in np.quantile(times, [0.5, 0.95])) if times else ""
 
 
 def round_path(robot: Json, problem: Problem, path: Any, make_contacts: Any) -> list[list[float]] | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import os
+import signal
 import tarfile
 
 import numpy as np
@@ -14,7 +16,7 @@ from benchmarks.locked_planning.adapters import Answer, Holdfast, Planner
 from benchmarks.locked_planning.goals import find_goal_configurations
 from benchmarks.locked_planning.mesh_contacts import MeshContacts
 from benchmarks.locked_planning.problems import LOCKS_FILE, Problem, draw, make_healthy, make_locked, read_problems
-from benchmarks.locked_planning.results import check_verdicts, find_contradictions, round_path, write_verdicts
+from benchmarks.locked_planning.results import check_verdicts, find_contradictions, read_results, round_path, write_verdicts
 from benchmarks.locked_planning.robots import SELF_PAIRS, load_robot, write_files
 from benchmarks.locked_planning.validator import SphereContacts, forward_kinematics, interpolate, signed_distances, validate
 
@@ -343,6 +345,34 @@ def test_a_run_writes_the_table_resumes_and_finds_contradictions(files, monkeypa
     capsys.readouterr()
     assert command.main([*words, "--check", str(verdicts)]) == 1
     assert "from the goal" in capsys.readouterr().out
+
+
+class Interrupted(Straight):
+    def solve(self, problem, goals, seconds):
+        if problem.name.endswith("j2/start"):
+            os.kill(os.getpid(), signal.SIGINT)
+        if problem.name.endswith("j3/start"):
+            raise RuntimeError("singular")
+        return super().solve(problem, goals, seconds)
+
+
+def test_an_interrupted_run_resumes_and_an_error_is_a_record(files, monkeypatch):
+    monkeypatch.setattr(command, "ADAPTERS", {"interrupted": Interrupted})
+    monkeypatch.setattr(command, "draw", lambda problems: problems)
+    words = ["--problems", str(files / "problems.tar.bz2"), "--robot", str(files / "robot.json"), "--out", str(files / "out")]
+    handler = signal.getsignal(signal.SIGINT)
+    assert command.main([*words, "--arm", "locked"]) == 130
+    assert signal.getsignal(signal.SIGINT) is handler
+    first = (files / "out" / "results.jsonl").read_text().splitlines()
+    assert json.loads(first[-1])["problem"] == "box/0001/j2/start"
+    with (files / "out" / "results.jsonl").open("a") as lines:
+        lines.write('{"track": "sphe')  # cut off by a power loss
+    assert command.main([*words, "--arm", "locked"]) == 0
+    records = read_results(files / "out" / "results.jsonl")
+    assert len({record["problem"] for record in records}) == 14
+    assert [record["note"] for record in records if record["problem"].endswith("j3/start")] == [
+        "error: RuntimeError('singular')"
+    ]
 
 
 def test_missing_files_are_named(files, monkeypatch, capsys):
