@@ -48,6 +48,11 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
     done = {(row["track"], row["problem"], row["planner"]) for row in read_results(file)}
     planners: dict[str, Planner] = {}
     urdf = write_files(robot, options.work / track)
+
+    def find_goals(problem: Problem) -> Floats:
+        return find_goal_configurations(robot, problem, CONTACTS[track](robot, problem.objects))
+
+    warm_up = next((problem for problem in problems if len(find_goals(problem))), problems[0])
     for name in options.planner or ADAPTERS:
         adapter = ADAPTERS[name]
         if adapter.missing():
@@ -56,8 +61,7 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
             print(f"{name} is skipped on the track {track}, because it has its own robot model", file=sys.stderr)
         elif any((track, problem.name, name) not in done for problem in problems):
             planners[name] = adapter(robot, urdf)
-            contacts = CONTACTS[track](robot, problems[0].objects)
-            run_problem(planners[name], problems[0], find_goal_configurations(robot, problems[0], contacts), options.seconds)
+            run_problem(planners[name], warm_up, find_goals(warm_up), options.seconds)  # compiles and imports
     with file.open("a+b") as stored:
         stored.seek(-min(1, stored.tell()), os.SEEK_END)
         if stored.read() not in (b"", b"\n"):
@@ -67,7 +71,7 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
             open_planners = {name: one for name, one in planners.items() if (track, problem.name, name) not in done}
             if not open_planners:
                 continue
-            goals = find_goal_configurations(robot, problem, CONTACTS[track](robot, problem.objects))
+            goals = find_goals(problem)
             for name, planner in open_planners.items():
                 if interrupts:
                     return
