@@ -103,6 +103,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=10.0, help="time limit of a problem")
     parser.add_argument("--out", type=Path, default=Path("locked-planning"), help="folder of results.jsonl and RESULTS.md")
     parser.add_argument("--verdicts", type=Path, help="also write the verdicts of the first planner and track to this file")
+    parser.add_argument("--export", type=Path, help="only write all problems to this file, one JSON object per line")
     parser.add_argument("--check", type=Path, help="only check the paths of this file of verdicts")
     options = parser.parse_args(arguments)
     tracks = options.track or ["spheres"]
@@ -113,6 +114,11 @@ def main(arguments: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     locked = make_locked(healthy)
+    if options.export:
+        rows = [json.dumps({"name": problem.name, **problem.to_dict()}) for problem in [*healthy, *locked]]
+        options.export.write_text("\n".join(rows) + "\n")
+        print(f"written: {options.export} with {len(rows)} problems")
+        return 0
     if options.check:
         refused = check_verdicts(options.check, robots[tracks[0]], [*healthy, *locked], CONTACTS[tracks[0]])
         print("\n".join([*refused, f"{len(refused)} paths are refused"]))

@@ -338,6 +338,9 @@ def test_a_run_writes_the_table_resumes_and_finds_contradictions(files, monkeypa
     assert command.main([*words, "--count", "5"]) == 0
     assert (out / "results.jsonl").read_text().splitlines() == lines
     assert command.main([*words, "--check", str(verdicts)]) == 0
+    assert command.main([*words, "--export", str(files / "problems.jsonl")]) == 0
+    exported = [json.loads(line) for line in (files / "problems.jsonl").read_text().splitlines()]
+    assert [exported[0]["name"], exported[14]["name"], exported[14]["lock"]["joint"]] == ["box/0001", "box/0001/j7/random", 6]
     data = json.loads(verdicts.read_text())
     entry = next(entry for entry in data["verdicts"].values() if "path" in entry)
     entry["path"][-1][0] += 0.1
