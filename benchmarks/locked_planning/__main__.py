@@ -106,6 +106,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--export", type=Path, help="only write all problems to this file, one JSON object per line")
     parser.add_argument("--check", type=Path, help="only check the paths of this file of verdicts")
     options = parser.parse_args(arguments)
+    if options.count is not None and options.count < 1:
+        parser.error(f"count is {options.count}; it must be 1 or more")
+    if not options.seconds > 0:
+        parser.error(f"seconds is {options.seconds:g}; it must be above 0")
     tracks = options.track or ["spheres"]
     try:
         robots = {track: load_robot(track, options.robot) for track in tracks}

@@ -350,6 +350,16 @@ def test_a_run_writes_the_table_resumes_and_finds_contradictions(files, monkeypa
     assert "from the goal" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [(("--count", "0"), "count is 0; it must be 1 or more"), (("--seconds", "nan"), "seconds is nan; it must")],
+)
+def test_numbers_out_of_bounds_are_refused(words, sentence, capsys):
+    with pytest.raises(SystemExit):
+        command.main(words)
+    assert sentence in capsys.readouterr().err
+
+
 class Interrupted(Straight):
     def solve(self, problem, goals, seconds):
         if problem.name.endswith("j2/start"):
