@@ -110,8 +110,8 @@ class Holdfast(Planner):
             goal=problem.goal_pose if problem.goal is None else problem.goal,
             clearance=self.cell_clearance(problem),
             samples=0,
+            relax=False,
             time_limit=seconds,
-            tolerance=(1e-3, float(np.deg2rad(0.5))),
         )
         verdict = recovery.verdict
         if verdict.answer in ("solved", "proved infeasible"):
