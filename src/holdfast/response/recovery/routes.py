@@ -16,6 +16,7 @@ _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
 # Largest possible motion between checked configurations and room in addition to what is required, m, and number of samples.
 _SEARCH_LEVELS = ((0.05, 2e-3, 5000), (0.02, 1e-3, 10_000), (0.005, 0.0, 10_000))
+_EXACT_SEARCH_LEVELS = tuple((0.02, -overlap, 5000) for overlap in (0.0, 5e-3, 0.01, 0.02, 0.04))
 _FINAL_SHORTENING = (0.01, 2e-4, 200)  # the same two lengths, and shortcuts in a row that do not help
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
@@ -73,6 +74,7 @@ def find_route(
     free_goals = np.flatnonzero(space.are_segments_valid(np.repeat(start[None], len(goals), axis=0), goals)[order])
     best_route: Route | None = None
     closed_in, failure_count = list[str](), 0
+    compiled_search = space.compiled_search(metric)
     if free_goals.size:
         nearest = int(order[free_goals[0]])
         best_route = Route(np.stack([start, goals[nearest]]), float(direct_lengths[nearest]), lower_bound, nearest, True)
@@ -90,10 +92,11 @@ def find_route(
             break  # along constraints a search takes long, and the bound hardly limits the possible improvement
         if space.manifold is None and failure_count == max_failures:
             break
-        compiled_search = space.compiled_search(metric)
+        connection = None
         if compiled_search is not None:
             connection = _search_compiled(compiled_search, space, start, goals[closer_goals], rng)
-        else:
+        is_short = connection is not None
+        if connection is None and (compiled_search is None or space.edges is None):
             connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
             closed_in.append(space.closed_in)
             if all(closed_in[-2:]) and len(closed_in) > 1:
@@ -102,13 +105,12 @@ def find_route(
             failure_count += not space.closed_in
             continue
         q, goal = connection
-        if compiled_search is None:
+        if not is_short:
             q = shorten_path(space, metric, q, rng)
         new_length = float(metric.cumulative_length(q)[-1])
         if new_length < length:
             best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
     space.closed_in = ""
-    compiled_search = space.compiled_search(metric)
     if best_route is not None and not best_route.straight and compiled_search is not None:
         q = _shorten_compiled(compiled_search, space, best_route.q, rng)
         best_route = replace(best_route, q=q, length=float(metric.cumulative_length(q)[-1]), straight=len(q) == 2)
@@ -143,12 +145,12 @@ def _search_compiled(
     """Return a short route from start (n,) to one of the goals (G, n) and the index of the goal, or None if none is proved.
 
     A route is searched with some room to spare and few checks. If its proof fails, the next search has less room and more
-    checks.
+    checks. With exact distances, the spheres around the arm may overlap objects, by more in each search.
     """
-    assert space.edges is not None
-    for spacing, room, sample_count in _SEARCH_LEVELS:
+    assert space.search_edges is not None
+    for spacing, room, sample_count in _EXACT_SEARCH_LEVELS if space.edges is None else _SEARCH_LEVELS:
         ends = np.concatenate([start[None], goals])
-        has_room = space.edges.check_edges(ends, np.zeros_like(ends), room)
+        has_room = space.search_edges.check_edges(ends, np.zeros_like(ends), room)
         if space.is_time_over or not (has_room[0] and has_room[1:].any()):
             continue
         seed = int(rng.integers(1 << 62))

@@ -17,6 +17,7 @@ from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.exact.exact_clearance import ExactClearance
 from holdfast.response.recovery.compiled.edges import EdgeChecker, RouteSearch
 
 MetricName = Literal["travel", "time"]
@@ -95,6 +96,7 @@ class FreeSpace:
     Attributes:
         manifold: Manifold of these constraints; None if there are none.
         edges: Compiled checks and proofs of edges; None if the clearance has meshes, scans, or exact distances.
+        search_edges: Compiled checks for the search of a route; with exact distances those of the bound of the clearance.
         closed_in: ``start`` or ``goal`` if the search from this end was exhausted; see :func:`find_route`.
     """
 
@@ -122,8 +124,12 @@ class FreeSpace:
         self.manifold = ConstraintManifold(arm, constraints, free, limits) if constraints else None
         self._lipschitz_bounds = None if self.clearance is None else self.clearance.lipschitz_bounds(self.low, self.high)
         self.edges: EdgeChecker | None = None
-        if self.clearance is not None and self._lipschitz_bounds is not None and EdgeChecker.supports(self.clearance):
-            self.edges = EdgeChecker(self.clearance, margin, self._lipschitz_bounds)
+        self.search_edges: EdgeChecker | None = None
+        if self.clearance is not None and self._lipschitz_bounds is not None:
+            bound = self.clearance.bound if isinstance(self.clearance, ExactClearance) else self.clearance
+            if EdgeChecker.supports(bound):
+                self.search_edges = EdgeChecker(bound, margin, self._lipschitz_bounds)
+                self.edges = self.search_edges if bound is self.clearance else None
         self._route_search: tuple[JointMetric, RouteSearch] | None = None
 
     def stop_after(self, seconds: float) -> None:
@@ -211,13 +217,13 @@ class FreeSpace:
             last_margins = np.concatenate([middle_margins, last_margins])
 
     def compiled_search(self, metric: JointMetric) -> RouteSearch | None:
-        """Return the compiled search for routes that are short in a metric; None with constraints or without :attr:`edges`."""
-        if self.edges is None or self.manifold is not None:
+        """Return the compiled search for routes that are short in a metric; None with constraints or without its checks."""
+        if self.search_edges is None or self.manifold is not None:
             return None
         if self._route_search is None or self._route_search[0] is not metric:
             is_unlimited = joint_space.is_unlimited(self.arm) & self.free
             scale = np.where(self.free, metric.scale, 0.0)
-            search = RouteSearch(self.edges, self.low, self.high, scale, is_unlimited, metric.name == "time")
+            search = RouteSearch(self.search_edges, self.low, self.high, scale, is_unlimited, metric.name == "time")
             self._route_search = metric, search
         return self._route_search[1]
 

@@ -261,7 +261,8 @@ template <class T, bool stop_at_first>
 INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame<T> *frames, typename Lanes<T>::V half,
                                               const Motion<T> &motion) {
   typedef typename Lanes<T>::V V;
-  typename Lanes<T>::Mask too_close = half < half;  // none
+  const V none = half * T(0);
+  typename Lanes<T>::Mask too_close = none < none;
   for (Int link = 1; link <= scene.joint_count; link++) {
     const Sphere<T> &around = scene.enclosing[link];
     if (around.radius < 0) continue;
@@ -272,11 +273,11 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
       const Object<T> &object = scene.objects[k];
       const T allowance = scene.allowances[link * scene.object_count + k] + object.rounding;
       if (allowance < UNCHECKED_M) continue;
-      V reach = needed + (allowance + around.radius);
+      V reach = larger(needed + (allowance + around.radius), none);
       if (!any(squared_distance(object, center) < reach * reach)) continue;
       for (Int sphere = scene.first_sphere[link]; sphere < scene.first_sphere[link + 1]; sphere++) {
         const Sphere<T> &ball = scene.spheres[sphere];
-        V limit = needed + (allowance + ball.radius);
+        V limit = larger(needed + (allowance + ball.radius), none);
         too_close |= squared_distance(object, frame.transform(ball.x, ball.y, ball.z)) < limit * limit;
         if (stop_at_first && any(too_close)) return too_close;
       }
@@ -291,7 +292,7 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
     const Frame<T> &f = frames[links.first_link], &g = frames[links.second_link];
     const V needed = half * motion.pair[k] + (motion.pair_deviation[k] + scene.pair_allowances[k]);
     const Point<V> second_center = g.transform(b.x, b.y, b.z);
-    V reach = needed + (a.radius + b.radius);
+    V reach = larger(needed + (a.radius + b.radius), none);
     if (!any(squared_gap(f.transform(a.x, a.y, a.z), second_center) < reach * reach)) continue;
     const Int both_links[2] = {links.first_link, links.second_link};
     for (Int link : both_links) {
@@ -309,13 +310,13 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
       const Part<T> &first = scene.parts[parts.first], &second = scene.parts[parts.second];
       if (parts.first != tested) {
         tested = parts.first;
-        reach = needed + (first.reach + b.radius);
+        reach = larger(needed + (first.reach + b.radius), none);
         is_near = any(squared_gap(centers[tested], second_center) < reach * reach);
       }
       if (!is_near) continue;
-      reach = needed + (first.reach + second.reach);
+      reach = larger(needed + (first.reach + second.reach), none);
       if (!any(squared_gap(centers[parts.first], centers[parts.second]) < reach * reach)) continue;
-      const V limit = needed + (first.radius + second.radius);
+      const V limit = larger(needed + (first.radius + second.radius), none);
       too_close |= squared_distance(f, first, centers[parts.first], g, second, centers[parts.second]) < limit * limit;
       if (stop_at_first && any(too_close)) return too_close;
     }
@@ -325,8 +326,8 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
 
 // ---- edges ------------------------------------------------------------------------------------------------------------------
 
-// Whether every configuration that is checked along an edge has ``room`` in addition to what is required, in m; the start is
-// not checked. At most ``spacing``, in m, moves any sphere between two checked configurations.
+// Whether every configuration that is checked along an edge has ``room`` in addition to what is required, in m; below 0 the
+// spheres may overlap by so much. The start is not checked. At most ``spacing``, in m, moves any sphere between two checked configurations.
 static bool is_edge_free(const Scene<float> &scene, const float *start, const float *difference, float spacing, float room) {
   typedef Lanes<float>::V V;
   Motion<float> motion;

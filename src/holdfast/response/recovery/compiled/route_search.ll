@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 e08451f2cfad5d696e064549166dc263c0cc7415e6d9d52bafa9c49217c41101, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 b477ce411cefce44eedcb15cafeeede618ae2eaa75423c66da648d58649850f8, by tools/native.py. Do not edit.
 
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
 %struct.Motion = type { [17 x float], [17 x float], [136 x float], [136 x float] }
@@ -243,7 +243,7 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
   %145 = add i64 %144, 1
   %146 = shl nsw i64 %145, 4
   %147 = sitofp i64 %146 to float
-  br label %194
+  br label %195
 
 148:
   %149 = phi i64 [ %151, %148 ], [ 680, %112 ]
@@ -256,7 +256,7 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
 153:
   call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %11)
   %154 = icmp slt i64 %144, 0
-  br i1 %154, label %1263, label %155
+  br i1 %154, label %1276, label %155
 
 155:
   %156 = fdiv contract float 1.000000e+00, %147
@@ -266,1259 +266,1272 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
   %160 = icmp sgt i64 %12, 0
   %161 = getelementptr inbounds i8, ptr %0, i64 24
   %162 = load ptr, ptr %161, align 8
-  %163 = fmul contract <16 x float> %200, zeroinitializer
-  %164 = icmp slt i64 %12, 1
-  %165 = getelementptr inbounds i8, ptr %0, i64 48
-  %166 = load ptr, ptr %165, align 8
-  %167 = getelementptr inbounds i8, ptr %9, i64 68
-  %168 = getelementptr inbounds i8, ptr %0, i64 8
-  %169 = load i64, ptr %168, align 8
-  %170 = icmp sgt i64 %169, 0
-  %171 = getelementptr inbounds i8, ptr %0, i64 56
-  %172 = load ptr, ptr %171, align 8
-  %173 = getelementptr inbounds i8, ptr %0, i64 64
-  %174 = load ptr, ptr %173, align 8
-  %175 = getelementptr inbounds i8, ptr %0, i64 32
-  %176 = load ptr, ptr %175, align 8
-  %177 = getelementptr inbounds i8, ptr %0, i64 40
-  %178 = load ptr, ptr %177, align 8
-  %179 = getelementptr inbounds i8, ptr %0, i64 96
-  %180 = load ptr, ptr %179, align 8
-  %181 = getelementptr inbounds i8, ptr %0, i64 88
-  %182 = load ptr, ptr %181, align 8
-  %183 = getelementptr inbounds i8, ptr %9, i64 136
-  %184 = getelementptr inbounds i8, ptr %9, i64 680
-  %185 = getelementptr inbounds i8, ptr %0, i64 128
-  %186 = load ptr, ptr %185, align 8
-  %187 = getelementptr inbounds i8, ptr %7, i64 8
-  %188 = getelementptr inbounds i8, ptr %0, i64 80
-  %189 = load ptr, ptr %188, align 8
-  %190 = getelementptr inbounds i8, ptr %0, i64 72
-  %191 = load ptr, ptr %190, align 8
-  %192 = getelementptr inbounds i8, ptr %0, i64 104
-  %193 = load ptr, ptr %192, align 8
-  br label %207
+  %163 = fmul contract <16 x float> %201, zeroinitializer
+  %164 = fmul contract <16 x float> %163, zeroinitializer
+  %165 = icmp slt i64 %12, 1
+  %166 = getelementptr inbounds i8, ptr %0, i64 48
+  %167 = load ptr, ptr %166, align 8
+  %168 = getelementptr inbounds i8, ptr %9, i64 68
+  %169 = getelementptr inbounds i8, ptr %0, i64 8
+  %170 = load i64, ptr %169, align 8
+  %171 = icmp sgt i64 %170, 0
+  %172 = getelementptr inbounds i8, ptr %0, i64 56
+  %173 = load ptr, ptr %172, align 8
+  %174 = getelementptr inbounds i8, ptr %0, i64 64
+  %175 = load ptr, ptr %174, align 8
+  %176 = getelementptr inbounds i8, ptr %0, i64 32
+  %177 = load ptr, ptr %176, align 8
+  %178 = getelementptr inbounds i8, ptr %0, i64 40
+  %179 = load ptr, ptr %178, align 8
+  %180 = getelementptr inbounds i8, ptr %0, i64 96
+  %181 = load ptr, ptr %180, align 8
+  %182 = getelementptr inbounds i8, ptr %0, i64 88
+  %183 = load ptr, ptr %182, align 8
+  %184 = getelementptr inbounds i8, ptr %9, i64 136
+  %185 = getelementptr inbounds i8, ptr %9, i64 680
+  %186 = getelementptr inbounds i8, ptr %0, i64 128
+  %187 = load ptr, ptr %186, align 8
+  %188 = getelementptr inbounds i8, ptr %7, i64 8
+  %189 = getelementptr inbounds i8, ptr %0, i64 80
+  %190 = load ptr, ptr %189, align 8
+  %191 = getelementptr inbounds i8, ptr %0, i64 72
+  %192 = load ptr, ptr %191, align 8
+  %193 = getelementptr inbounds i8, ptr %0, i64 104
+  %194 = load ptr, ptr %193, align 8
+  br label %208
 
-194:
-  %195 = phi i64 [ 0, %140 ], [ %201, %194 ]
-  %196 = phi <16 x float> [ undef, %140 ], [ %200, %194 ]
-  %197 = mul nsw i64 %195, %145
-  %198 = add nsw i64 %197, 1
-  %199 = sitofp i64 %198 to float
-  %200 = insertelement <16 x float> %196, float %199, i64 %195
-  %201 = add nuw nsw i64 %195, 1
-  %202 = icmp eq i64 %201, 16
-  br i1 %202, label %153, label %194
+195:
+  %196 = phi i64 [ 0, %140 ], [ %202, %195 ]
+  %197 = phi <16 x float> [ undef, %140 ], [ %201, %195 ]
+  %198 = mul nsw i64 %196, %145
+  %199 = add nsw i64 %198, 1
+  %200 = sitofp i64 %199 to float
+  %201 = insertelement <16 x float> %197, float %200, i64 %196
+  %202 = add nuw nsw i64 %196, 1
+  %203 = icmp eq i64 %202, 16
+  br i1 %203, label %153, label %195
 
-203:
-  %204 = add nuw i64 %209, 1
-  %205 = icmp sge i64 %209, %144
-  %206 = icmp eq i64 %209, %144
-  br i1 %206, label %1263, label %207
+204:
+  %205 = add nuw i64 %210, 1
+  %206 = icmp sge i64 %210, %144
+  %207 = icmp eq i64 %210, %144
+  br i1 %207, label %1276, label %208
 
-207:
-  %208 = phi i1 [ false, %155 ], [ %205, %203 ]
-  %209 = phi i64 [ 0, %155 ], [ %204, %203 ]
-  %210 = uitofp nneg i64 %209 to float
-  %211 = insertelement <16 x float> poison, float %210, i64 0
-  %212 = shufflevector <16 x float> %211, <16 x float> poison, <16 x i32> zeroinitializer
-  %213 = fadd contract <16 x float> %200, %212
-  %214 = fmul contract <16 x float> %158, %213
-  %215 = fmul contract <16 x float> %214, zeroinitializer
-  br label %216
+208:
+  %209 = phi i1 [ false, %155 ], [ %206, %204 ]
+  %210 = phi i64 [ 0, %155 ], [ %205, %204 ]
+  %211 = uitofp nneg i64 %210 to float
+  %212 = insertelement <16 x float> poison, float %211, i64 0
+  %213 = shufflevector <16 x float> %212, <16 x float> poison, <16 x i32> zeroinitializer
+  %214 = fadd contract <16 x float> %201, %213
+  %215 = fmul contract <16 x float> %158, %214
+  %216 = fmul contract <16 x float> %215, zeroinitializer
+  br label %217
 
-216:
-  %217 = phi i64 [ 0, %207 ], [ %225, %216 ]
-  %218 = and i64 %217, 3
-  %219 = icmp eq i64 %218, 0
-  %220 = uitofp i1 %219 to float
-  %221 = insertelement <16 x float> poison, float %220, i64 0
-  %222 = shufflevector <16 x float> %221, <16 x float> poison, <16 x i32> zeroinitializer
-  %223 = fadd contract <16 x float> %215, %222
-  %224 = getelementptr inbounds [9 x <16 x float>], ptr %11, i64 0, i64 %217
-  store <16 x float> %223, ptr %224, align 64
-  %225 = add nuw nsw i64 %217, 1
-  %226 = icmp eq i64 %225, 9
-  br i1 %226, label %228, label %216
-
-227:
-  br i1 %160, label %233, label %758
+217:
+  %218 = phi i64 [ 0, %208 ], [ %226, %217 ]
+  %219 = and i64 %218, 3
+  %220 = icmp eq i64 %219, 0
+  %221 = uitofp i1 %220 to float
+  %222 = insertelement <16 x float> poison, float %221, i64 0
+  %223 = shufflevector <16 x float> %222, <16 x float> poison, <16 x i32> zeroinitializer
+  %224 = fadd contract <16 x float> %216, %223
+  %225 = getelementptr inbounds [9 x <16 x float>], ptr %11, i64 0, i64 %218
+  store <16 x float> %224, ptr %225, align 64
+  %226 = add nuw nsw i64 %218, 1
+  %227 = icmp eq i64 %226, 9
+  br i1 %227, label %229, label %217
 
 228:
-  %229 = phi i64 [ %231, %228 ], [ 0, %216 ]
-  %230 = getelementptr inbounds [3 x <16 x float>], ptr %159, i64 0, i64 %229
-  store <16 x float> %215, ptr %230, align 64
-  %231 = add nuw nsw i64 %229, 1
-  %232 = icmp eq i64 %231, 3
-  br i1 %232, label %227, label %228
+  br i1 %160, label %234, label %763
 
-233:
-  %234 = phi i64 [ %237, %429 ], [ 0, %227 ]
-  %235 = getelementptr inbounds %struct.Joint, ptr %162, i64 %234
-  %236 = getelementptr inbounds %struct.Frame, ptr %11, i64 %234
-  %237 = add nuw nsw i64 %234, 1
-  %238 = getelementptr inbounds float, ptr %1, i64 %234
-  %239 = load float, ptr %238, align 4
-  %240 = insertelement <16 x float> poison, float %239, i64 0
-  %241 = getelementptr inbounds float, ptr %2, i64 %234
-  %242 = load float, ptr %241, align 4
-  %243 = insertelement <16 x float> poison, float %242, i64 0
-  %244 = shufflevector <16 x float> %243, <16 x float> poison, <16 x i32> zeroinitializer
-  %245 = fmul contract <16 x float> %214, %244
-  %246 = getelementptr inbounds i8, ptr %235, i64 36
-  %247 = load float, ptr %246, align 4
-  %248 = getelementptr inbounds i8, ptr %235, i64 40
-  %249 = load float, ptr %248, align 4
-  %250 = getelementptr inbounds i8, ptr %235, i64 44
-  %251 = load float, ptr %250, align 4
-  %252 = getelementptr inbounds i8, ptr %236, i64 576
-  %253 = load <16 x float>, ptr %252, align 64
-  %254 = load <16 x float>, ptr %236, align 64
-  %255 = insertelement <16 x float> poison, float %247, i64 0
-  %256 = shufflevector <16 x float> %255, <16 x float> poison, <16 x i32> zeroinitializer
-  %257 = fmul contract <16 x float> %256, %254
-  %258 = getelementptr inbounds i8, ptr %236, i64 64
-  %259 = load <16 x float>, ptr %258, align 64
-  %260 = insertelement <16 x float> poison, float %249, i64 0
-  %261 = shufflevector <16 x float> %260, <16 x float> poison, <16 x i32> zeroinitializer
-  %262 = fmul contract <16 x float> %261, %259
-  %263 = getelementptr inbounds i8, ptr %236, i64 128
-  %264 = load <16 x float>, ptr %263, align 64
-  %265 = insertelement <16 x float> poison, float %251, i64 0
-  %266 = shufflevector <16 x float> %265, <16 x float> poison, <16 x i32> zeroinitializer
-  %267 = fmul contract <16 x float> %266, %264
-  %268 = getelementptr inbounds i8, ptr %236, i64 640
-  %269 = load <16 x float>, ptr %268, align 64
-  %270 = getelementptr inbounds i8, ptr %236, i64 192
-  %271 = load <16 x float>, ptr %270, align 64
-  %272 = fmul contract <16 x float> %256, %271
-  %273 = getelementptr inbounds i8, ptr %236, i64 256
-  %274 = load <16 x float>, ptr %273, align 64
-  %275 = fmul contract <16 x float> %261, %274
-  %276 = getelementptr inbounds i8, ptr %236, i64 320
-  %277 = load <16 x float>, ptr %276, align 64
-  %278 = fmul contract <16 x float> %266, %277
-  %279 = getelementptr inbounds i8, ptr %236, i64 704
-  %280 = load <16 x float>, ptr %279, align 64
-  %281 = getelementptr inbounds i8, ptr %236, i64 384
-  %282 = load <16 x float>, ptr %281, align 64
-  %283 = fmul contract <16 x float> %256, %282
-  %284 = getelementptr inbounds i8, ptr %236, i64 448
-  %285 = load <16 x float>, ptr %284, align 64
-  %286 = fmul contract <16 x float> %261, %285
-  %287 = getelementptr inbounds i8, ptr %236, i64 512
-  %288 = load <16 x float>, ptr %287, align 64
-  %289 = fmul contract <16 x float> %266, %288
+229:
+  %230 = phi i64 [ %232, %229 ], [ 0, %217 ]
+  %231 = getelementptr inbounds [3 x <16 x float>], ptr %159, i64 0, i64 %230
+  store <16 x float> %216, ptr %231, align 64
+  %232 = add nuw nsw i64 %230, 1
+  %233 = icmp eq i64 %232, 3
+  br i1 %233, label %228, label %229
+
+234:
+  %235 = phi i64 [ %238, %430 ], [ 0, %228 ]
+  %236 = getelementptr inbounds %struct.Joint, ptr %162, i64 %235
+  %237 = getelementptr inbounds %struct.Frame, ptr %11, i64 %235
+  %238 = add nuw nsw i64 %235, 1
+  %239 = getelementptr inbounds float, ptr %1, i64 %235
+  %240 = load float, ptr %239, align 4
+  %241 = insertelement <16 x float> poison, float %240, i64 0
+  %242 = getelementptr inbounds float, ptr %2, i64 %235
+  %243 = load float, ptr %242, align 4
+  %244 = insertelement <16 x float> poison, float %243, i64 0
+  %245 = shufflevector <16 x float> %244, <16 x float> poison, <16 x i32> zeroinitializer
+  %246 = fmul contract <16 x float> %215, %245
+  %247 = getelementptr inbounds i8, ptr %236, i64 36
+  %248 = load float, ptr %247, align 4
+  %249 = getelementptr inbounds i8, ptr %236, i64 40
+  %250 = load float, ptr %249, align 4
+  %251 = getelementptr inbounds i8, ptr %236, i64 44
+  %252 = load float, ptr %251, align 4
+  %253 = getelementptr inbounds i8, ptr %237, i64 576
+  %254 = load <16 x float>, ptr %253, align 64
+  %255 = load <16 x float>, ptr %237, align 64
+  %256 = insertelement <16 x float> poison, float %248, i64 0
+  %257 = shufflevector <16 x float> %256, <16 x float> poison, <16 x i32> zeroinitializer
+  %258 = fmul contract <16 x float> %257, %255
+  %259 = getelementptr inbounds i8, ptr %237, i64 64
+  %260 = load <16 x float>, ptr %259, align 64
+  %261 = insertelement <16 x float> poison, float %250, i64 0
+  %262 = shufflevector <16 x float> %261, <16 x float> poison, <16 x i32> zeroinitializer
+  %263 = fmul contract <16 x float> %262, %260
+  %264 = getelementptr inbounds i8, ptr %237, i64 128
+  %265 = load <16 x float>, ptr %264, align 64
+  %266 = insertelement <16 x float> poison, float %252, i64 0
+  %267 = shufflevector <16 x float> %266, <16 x float> poison, <16 x i32> zeroinitializer
+  %268 = fmul contract <16 x float> %267, %265
+  %269 = getelementptr inbounds i8, ptr %237, i64 640
+  %270 = load <16 x float>, ptr %269, align 64
+  %271 = getelementptr inbounds i8, ptr %237, i64 192
+  %272 = load <16 x float>, ptr %271, align 64
+  %273 = fmul contract <16 x float> %257, %272
+  %274 = getelementptr inbounds i8, ptr %237, i64 256
+  %275 = load <16 x float>, ptr %274, align 64
+  %276 = fmul contract <16 x float> %262, %275
+  %277 = getelementptr inbounds i8, ptr %237, i64 320
+  %278 = load <16 x float>, ptr %277, align 64
+  %279 = fmul contract <16 x float> %267, %278
+  %280 = getelementptr inbounds i8, ptr %237, i64 704
+  %281 = load <16 x float>, ptr %280, align 64
+  %282 = getelementptr inbounds i8, ptr %237, i64 384
+  %283 = load <16 x float>, ptr %282, align 64
+  %284 = fmul contract <16 x float> %257, %283
+  %285 = getelementptr inbounds i8, ptr %237, i64 448
+  %286 = load <16 x float>, ptr %285, align 64
+  %287 = fmul contract <16 x float> %262, %286
+  %288 = getelementptr inbounds i8, ptr %237, i64 512
+  %289 = load <16 x float>, ptr %288, align 64
+  %290 = fmul contract <16 x float> %267, %289
   call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %8)
-  br label %290
+  br label %291
 
-290:
-  %291 = phi i64 [ 0, %233 ], [ %321, %320 ]
-  %292 = mul nuw nsw i64 %291, 3
-  %293 = getelementptr inbounds [9 x <16 x float>], ptr %236, i64 0, i64 %292
-  %294 = load <16 x float>, ptr %293, align 64
-  %295 = add nuw nsw i64 %292, 1
-  %296 = getelementptr inbounds [9 x <16 x float>], ptr %236, i64 0, i64 %295
-  %297 = load <16 x float>, ptr %296, align 64
-  %298 = add nuw nsw i64 %292, 2
-  %299 = getelementptr inbounds [9 x <16 x float>], ptr %236, i64 0, i64 %298
-  %300 = load <16 x float>, ptr %299, align 64
-  br label %323
+291:
+  %292 = phi i64 [ 0, %234 ], [ %322, %321 ]
+  %293 = mul nuw nsw i64 %292, 3
+  %294 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %293
+  %295 = load <16 x float>, ptr %294, align 64
+  %296 = add nuw nsw i64 %293, 1
+  %297 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %296
+  %298 = load <16 x float>, ptr %297, align 64
+  %299 = add nuw nsw i64 %293, 2
+  %300 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %299
+  %301 = load <16 x float>, ptr %300, align 64
+  br label %324
 
-301:
-  %302 = getelementptr inbounds %struct.Frame, ptr %11, i64 %237
-  %303 = shufflevector <16 x float> %240, <16 x float> poison, <16 x i32> zeroinitializer
-  %304 = fadd contract <16 x float> %303, %245
-  %305 = fadd contract <16 x float> %253, %257
-  %306 = fadd contract <16 x float> %305, %262
-  %307 = fadd contract <16 x float> %306, %267
-  %308 = fadd contract <16 x float> %269, %272
-  %309 = fadd contract <16 x float> %308, %275
-  %310 = fadd contract <16 x float> %309, %278
-  %311 = fadd contract <16 x float> %280, %283
-  %312 = fadd contract <16 x float> %311, %286
-  %313 = fadd contract <16 x float> %312, %289
-  %314 = getelementptr inbounds i8, ptr %302, i64 576
-  store <16 x float> %307, ptr %314, align 64
-  %315 = getelementptr inbounds i8, ptr %302, i64 640
-  store <16 x float> %310, ptr %315, align 64
-  %316 = getelementptr inbounds i8, ptr %302, i64 704
-  store <16 x float> %313, ptr %316, align 64
-  %317 = getelementptr inbounds i8, ptr %235, i64 48
-  %318 = load float, ptr %317, align 4
-  %319 = fcmp contract une float %318, 0.000000e+00
-  br i1 %319, label %348, label %367
+302:
+  %303 = getelementptr inbounds %struct.Frame, ptr %11, i64 %238
+  %304 = shufflevector <16 x float> %241, <16 x float> poison, <16 x i32> zeroinitializer
+  %305 = fadd contract <16 x float> %304, %246
+  %306 = fadd contract <16 x float> %254, %258
+  %307 = fadd contract <16 x float> %306, %263
+  %308 = fadd contract <16 x float> %307, %268
+  %309 = fadd contract <16 x float> %270, %273
+  %310 = fadd contract <16 x float> %309, %276
+  %311 = fadd contract <16 x float> %310, %279
+  %312 = fadd contract <16 x float> %281, %284
+  %313 = fadd contract <16 x float> %312, %287
+  %314 = fadd contract <16 x float> %313, %290
+  %315 = getelementptr inbounds i8, ptr %303, i64 576
+  store <16 x float> %308, ptr %315, align 64
+  %316 = getelementptr inbounds i8, ptr %303, i64 640
+  store <16 x float> %311, ptr %316, align 64
+  %317 = getelementptr inbounds i8, ptr %303, i64 704
+  store <16 x float> %314, ptr %317, align 64
+  %318 = getelementptr inbounds i8, ptr %236, i64 48
+  %319 = load float, ptr %318, align 4
+  %320 = fcmp contract une float %319, 0.000000e+00
+  br i1 %320, label %349, label %368
 
-320:
-  %321 = add nuw nsw i64 %291, 1
-  %322 = icmp eq i64 %321, 3
-  br i1 %322, label %301, label %290
+321:
+  %322 = add nuw nsw i64 %292, 1
+  %323 = icmp eq i64 %322, 3
+  br i1 %323, label %302, label %291
 
-323:
-  %324 = phi i64 [ 0, %290 ], [ %346, %323 ]
-  %325 = getelementptr inbounds [9 x float], ptr %235, i64 0, i64 %324
-  %326 = load float, ptr %325, align 4
-  %327 = insertelement <16 x float> poison, float %326, i64 0
-  %328 = shufflevector <16 x float> %327, <16 x float> poison, <16 x i32> zeroinitializer
-  %329 = fmul contract <16 x float> %294, %328
-  %330 = add nuw nsw i64 %324, 3
-  %331 = getelementptr inbounds [9 x float], ptr %235, i64 0, i64 %330
-  %332 = load float, ptr %331, align 4
-  %333 = insertelement <16 x float> poison, float %332, i64 0
-  %334 = shufflevector <16 x float> %333, <16 x float> poison, <16 x i32> zeroinitializer
-  %335 = fmul contract <16 x float> %297, %334
-  %336 = fadd contract <16 x float> %329, %335
-  %337 = add nuw nsw i64 %324, 6
-  %338 = getelementptr inbounds [9 x float], ptr %235, i64 0, i64 %337
-  %339 = load float, ptr %338, align 4
-  %340 = insertelement <16 x float> poison, float %339, i64 0
-  %341 = shufflevector <16 x float> %340, <16 x float> poison, <16 x i32> zeroinitializer
-  %342 = fmul contract <16 x float> %300, %341
-  %343 = fadd contract <16 x float> %336, %342
-  %344 = add nuw nsw i64 %324, %292
-  %345 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %344
-  store <16 x float> %343, ptr %345, align 64
-  %346 = add nuw nsw i64 %324, 1
-  %347 = icmp eq i64 %346, 3
-  br i1 %347, label %320, label %323
+324:
+  %325 = phi i64 [ 0, %291 ], [ %347, %324 ]
+  %326 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %325
+  %327 = load float, ptr %326, align 4
+  %328 = insertelement <16 x float> poison, float %327, i64 0
+  %329 = shufflevector <16 x float> %328, <16 x float> poison, <16 x i32> zeroinitializer
+  %330 = fmul contract <16 x float> %295, %329
+  %331 = add nuw nsw i64 %325, 3
+  %332 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %331
+  %333 = load float, ptr %332, align 4
+  %334 = insertelement <16 x float> poison, float %333, i64 0
+  %335 = shufflevector <16 x float> %334, <16 x float> poison, <16 x i32> zeroinitializer
+  %336 = fmul contract <16 x float> %298, %335
+  %337 = fadd contract <16 x float> %330, %336
+  %338 = add nuw nsw i64 %325, 6
+  %339 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %338
+  %340 = load float, ptr %339, align 4
+  %341 = insertelement <16 x float> poison, float %340, i64 0
+  %342 = shufflevector <16 x float> %341, <16 x float> poison, <16 x i32> zeroinitializer
+  %343 = fmul contract <16 x float> %301, %342
+  %344 = fadd contract <16 x float> %337, %343
+  %345 = add nuw nsw i64 %325, %293
+  %346 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %345
+  store <16 x float> %344, ptr %346, align 64
+  %347 = add nuw nsw i64 %325, 1
+  %348 = icmp eq i64 %347, 3
+  br i1 %348, label %321, label %324
 
-348:
-  %349 = phi i64 [ %353, %348 ], [ 0, %301 ]
-  %350 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %349
-  %351 = load <16 x float>, ptr %350, align 64
-  %352 = getelementptr inbounds [9 x <16 x float>], ptr %302, i64 0, i64 %349
-  store <16 x float> %351, ptr %352, align 64
-  %353 = add nuw nsw i64 %349, 1
-  %354 = icmp eq i64 %353, 9
-  br i1 %354, label %355, label %348
+349:
+  %350 = phi i64 [ %354, %349 ], [ 0, %302 ]
+  %351 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %350
+  %352 = load <16 x float>, ptr %351, align 64
+  %353 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %350
+  store <16 x float> %352, ptr %353, align 64
+  %354 = add nuw nsw i64 %350, 1
+  %355 = icmp eq i64 %354, 9
+  br i1 %355, label %356, label %349
 
-355:
-  %356 = phi i64 [ %365, %355 ], [ 0, %348 ]
-  %357 = mul nuw nsw i64 %356, 3
-  %358 = add nuw nsw i64 %357, 2
-  %359 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %358
-  %360 = load <16 x float>, ptr %359, align 64
-  %361 = fmul contract <16 x float> %304, %360
-  %362 = getelementptr inbounds [3 x <16 x float>], ptr %314, i64 0, i64 %356
-  %363 = load <16 x float>, ptr %362, align 64
-  %364 = fadd contract <16 x float> %363, %361
-  store <16 x float> %364, ptr %362, align 64
-  %365 = add nuw nsw i64 %356, 1
-  %366 = icmp eq i64 %365, 3
-  br i1 %366, label %429, label %355
+356:
+  %357 = phi i64 [ %366, %356 ], [ 0, %349 ]
+  %358 = mul nuw nsw i64 %357, 3
+  %359 = add nuw nsw i64 %358, 2
+  %360 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %359
+  %361 = load <16 x float>, ptr %360, align 64
+  %362 = fmul contract <16 x float> %305, %361
+  %363 = getelementptr inbounds [3 x <16 x float>], ptr %315, i64 0, i64 %357
+  %364 = load <16 x float>, ptr %363, align 64
+  %365 = fadd contract <16 x float> %364, %362
+  store <16 x float> %365, ptr %363, align 64
+  %366 = add nuw nsw i64 %357, 1
+  %367 = icmp eq i64 %366, 3
+  br i1 %367, label %430, label %356
 
-367:
-  %368 = fmul contract <16 x float> %304, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
-  %369 = fadd contract <16 x float> %368, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %370 = fadd contract <16 x float> %369, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %371 = fmul contract <16 x float> %370, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
-  %372 = fsub contract <16 x float> %304, %371
-  %373 = fmul contract <16 x float> %370, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
-  %374 = fsub contract <16 x float> %372, %373
-  %375 = fmul contract <16 x float> %370, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
-  %376 = fsub contract <16 x float> %374, %375
-  %377 = fmul contract <16 x float> %370, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %378 = fadd contract <16 x float> %377, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %379 = fadd contract <16 x float> %378, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %380 = fsub contract <16 x float> %377, %379
-  %381 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %380)
-  %382 = fmul contract <16 x float> %381, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
-  %383 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %382
-  %384 = fmul contract <16 x float> %376, %376
-  %385 = fmul contract <16 x float> %376, %384
-  %386 = fmul contract <16 x float> %384, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
-  %387 = fadd contract <16 x float> %386, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
-  %388 = fmul contract <16 x float> %384, %387
-  %389 = fadd contract <16 x float> %388, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
-  %390 = fmul contract <16 x float> %384, %389
-  %391 = fadd contract <16 x float> %390, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
-  %392 = fmul contract <16 x float> %385, %391
-  %393 = fadd contract <16 x float> %376, %392
-  %394 = fmul contract <16 x float> %383, %393
-  %395 = fmul contract <16 x float> %384, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %396 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %395
-  %397 = fmul contract <16 x float> %384, %384
-  %398 = fmul contract <16 x float> %384, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
-  %399 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %398
-  %400 = fmul contract <16 x float> %384, %399
-  %401 = fadd contract <16 x float> %400, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
-  %402 = fmul contract <16 x float> %384, %401
-  %403 = fadd contract <16 x float> %402, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
-  %404 = fmul contract <16 x float> %397, %403
-  %405 = fadd contract <16 x float> %396, %404
-  %406 = fmul contract <16 x float> %383, %405
-  br label %407
+368:
+  %369 = fmul contract <16 x float> %305, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
+  %370 = fadd contract <16 x float> %369, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %371 = fadd contract <16 x float> %370, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %372 = fmul contract <16 x float> %371, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
+  %373 = fsub contract <16 x float> %305, %372
+  %374 = fmul contract <16 x float> %371, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
+  %375 = fsub contract <16 x float> %373, %374
+  %376 = fmul contract <16 x float> %371, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
+  %377 = fsub contract <16 x float> %375, %376
+  %378 = fmul contract <16 x float> %371, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %379 = fadd contract <16 x float> %378, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %380 = fadd contract <16 x float> %379, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %381 = fsub contract <16 x float> %378, %380
+  %382 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %381)
+  %383 = fmul contract <16 x float> %382, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
+  %384 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %383
+  %385 = fmul contract <16 x float> %377, %377
+  %386 = fmul contract <16 x float> %377, %385
+  %387 = fmul contract <16 x float> %385, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
+  %388 = fadd contract <16 x float> %387, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
+  %389 = fmul contract <16 x float> %385, %388
+  %390 = fadd contract <16 x float> %389, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
+  %391 = fmul contract <16 x float> %385, %390
+  %392 = fadd contract <16 x float> %391, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
+  %393 = fmul contract <16 x float> %386, %392
+  %394 = fadd contract <16 x float> %377, %393
+  %395 = fmul contract <16 x float> %384, %394
+  %396 = fmul contract <16 x float> %385, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %397 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %396
+  %398 = fmul contract <16 x float> %385, %385
+  %399 = fmul contract <16 x float> %385, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
+  %400 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %399
+  %401 = fmul contract <16 x float> %385, %400
+  %402 = fadd contract <16 x float> %401, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
+  %403 = fmul contract <16 x float> %385, %402
+  %404 = fadd contract <16 x float> %403, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
+  %405 = fmul contract <16 x float> %398, %404
+  %406 = fadd contract <16 x float> %397, %405
+  %407 = fmul contract <16 x float> %384, %406
+  br label %408
 
-407:
-  %408 = phi i64 [ 0, %367 ], [ %427, %407 ]
-  %409 = mul nuw nsw i64 %408, 3
-  %410 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %409
-  %411 = load <16 x float>, ptr %410, align 64
-  %412 = fmul contract <16 x float> %406, %411
-  %413 = add nuw nsw i64 %409, 1
-  %414 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %413
-  %415 = load <16 x float>, ptr %414, align 64
-  %416 = fmul contract <16 x float> %394, %415
-  %417 = fadd contract <16 x float> %412, %416
-  %418 = getelementptr inbounds [9 x <16 x float>], ptr %302, i64 0, i64 %409
-  store <16 x float> %417, ptr %418, align 64
-  %419 = fmul contract <16 x float> %406, %415
-  %420 = fmul contract <16 x float> %394, %411
-  %421 = fsub contract <16 x float> %419, %420
-  %422 = getelementptr inbounds [9 x <16 x float>], ptr %302, i64 0, i64 %413
-  store <16 x float> %421, ptr %422, align 64
-  %423 = add nuw nsw i64 %409, 2
-  %424 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %423
-  %425 = load <16 x float>, ptr %424, align 64
-  %426 = getelementptr inbounds [9 x <16 x float>], ptr %302, i64 0, i64 %423
-  store <16 x float> %425, ptr %426, align 64
-  %427 = add nuw nsw i64 %408, 1
-  %428 = icmp eq i64 %427, 3
-  br i1 %428, label %429, label %407
+408:
+  %409 = phi i64 [ 0, %368 ], [ %428, %408 ]
+  %410 = mul nuw nsw i64 %409, 3
+  %411 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %410
+  %412 = load <16 x float>, ptr %411, align 64
+  %413 = fmul contract <16 x float> %407, %412
+  %414 = add nuw nsw i64 %410, 1
+  %415 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %414
+  %416 = load <16 x float>, ptr %415, align 64
+  %417 = fmul contract <16 x float> %395, %416
+  %418 = fadd contract <16 x float> %413, %417
+  %419 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %410
+  store <16 x float> %418, ptr %419, align 64
+  %420 = fmul contract <16 x float> %407, %416
+  %421 = fmul contract <16 x float> %395, %412
+  %422 = fsub contract <16 x float> %420, %421
+  %423 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %414
+  store <16 x float> %422, ptr %423, align 64
+  %424 = add nuw nsw i64 %410, 2
+  %425 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %424
+  %426 = load <16 x float>, ptr %425, align 64
+  %427 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %424
+  store <16 x float> %426, ptr %427, align 64
+  %428 = add nuw nsw i64 %409, 1
+  %429 = icmp eq i64 %428, 3
+  br i1 %429, label %430, label %408
 
-429:
+430:
   call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %8)
-  %430 = icmp eq i64 %237, %12
-  br i1 %430, label %431, label %233
-
-431:
-  br i1 %164, label %758, label %432
+  %431 = icmp eq i64 %238, %12
+  br i1 %431, label %432, label %234
 
 432:
-  %433 = phi <16 x i32> [ %755, %754 ], [ zeroinitializer, %431 ]
-  %434 = phi i64 [ %756, %754 ], [ 1, %431 ]
-  %435 = getelementptr inbounds %struct.Sphere, ptr %166, i64 %434
-  %436 = getelementptr inbounds i8, ptr %435, i64 12
-  %437 = load float, ptr %436, align 4
-  %438 = fcmp contract olt float %437, 0.000000e+00
-  br i1 %438, label %754, label %439
+  br i1 %165, label %763, label %433
 
-439:
-  %440 = getelementptr inbounds %struct.Frame, ptr %11, i64 %434
-  %441 = load float, ptr %435, align 4
-  %442 = getelementptr inbounds i8, ptr %435, i64 4
-  %443 = load float, ptr %442, align 4
-  %444 = getelementptr inbounds i8, ptr %435, i64 8
-  %445 = load float, ptr %444, align 4
-  %446 = getelementptr inbounds i8, ptr %440, i64 576
-  %447 = load <16 x float>, ptr %446, align 64
-  %448 = load <16 x float>, ptr %440, align 64
-  %449 = insertelement <16 x float> poison, float %441, i64 0
-  %450 = shufflevector <16 x float> %449, <16 x float> poison, <16 x i32> zeroinitializer
-  %451 = fmul contract <16 x float> %450, %448
-  %452 = fadd contract <16 x float> %447, %451
-  %453 = getelementptr inbounds i8, ptr %440, i64 64
-  %454 = load <16 x float>, ptr %453, align 64
-  %455 = insertelement <16 x float> poison, float %443, i64 0
-  %456 = shufflevector <16 x float> %455, <16 x float> poison, <16 x i32> zeroinitializer
-  %457 = fmul contract <16 x float> %456, %454
-  %458 = fadd contract <16 x float> %452, %457
-  %459 = getelementptr inbounds i8, ptr %440, i64 128
-  %460 = load <16 x float>, ptr %459, align 64
-  %461 = insertelement <16 x float> poison, float %445, i64 0
-  %462 = shufflevector <16 x float> %461, <16 x float> poison, <16 x i32> zeroinitializer
-  %463 = fmul contract <16 x float> %462, %460
-  %464 = fadd contract <16 x float> %458, %463
-  %465 = getelementptr inbounds i8, ptr %440, i64 640
-  %466 = load <16 x float>, ptr %465, align 64
-  %467 = getelementptr inbounds i8, ptr %440, i64 192
-  %468 = load <16 x float>, ptr %467, align 64
-  %469 = fmul contract <16 x float> %450, %468
-  %470 = fadd contract <16 x float> %466, %469
-  %471 = getelementptr inbounds i8, ptr %440, i64 256
-  %472 = load <16 x float>, ptr %471, align 64
-  %473 = fmul contract <16 x float> %456, %472
-  %474 = fadd contract <16 x float> %470, %473
-  %475 = getelementptr inbounds i8, ptr %440, i64 320
-  %476 = load <16 x float>, ptr %475, align 64
-  %477 = fmul contract <16 x float> %462, %476
-  %478 = fadd contract <16 x float> %474, %477
-  %479 = getelementptr inbounds i8, ptr %440, i64 704
-  %480 = load <16 x float>, ptr %479, align 64
-  %481 = getelementptr inbounds i8, ptr %440, i64 384
-  %482 = load <16 x float>, ptr %481, align 64
-  %483 = fmul contract <16 x float> %450, %482
-  %484 = fadd contract <16 x float> %480, %483
-  %485 = getelementptr inbounds i8, ptr %440, i64 448
-  %486 = load <16 x float>, ptr %485, align 64
-  %487 = fmul contract <16 x float> %456, %486
-  %488 = fadd contract <16 x float> %484, %487
-  %489 = getelementptr inbounds i8, ptr %440, i64 512
-  %490 = load <16 x float>, ptr %489, align 64
-  %491 = fmul contract <16 x float> %462, %490
-  %492 = fadd contract <16 x float> %488, %491
-  %493 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %434
-  %494 = load float, ptr %493, align 4
-  %495 = insertelement <16 x float> poison, float %494, i64 0
-  %496 = shufflevector <16 x float> %495, <16 x float> poison, <16 x i32> zeroinitializer
-  %497 = fmul contract <16 x float> %163, %496
-  %498 = getelementptr inbounds [17 x float], ptr %167, i64 0, i64 %434
-  %499 = load float, ptr %498, align 4
-  %500 = insertelement <16 x float> poison, float %499, i64 0
-  %501 = shufflevector <16 x float> %500, <16 x float> poison, <16 x i32> zeroinitializer
-  %502 = fadd contract <16 x float> %497, %501
-  br i1 %170, label %503, label %754
+433:
+  %434 = phi <16 x i32> [ %760, %759 ], [ zeroinitializer, %432 ]
+  %435 = phi i64 [ %761, %759 ], [ 1, %432 ]
+  %436 = getelementptr inbounds %struct.Sphere, ptr %167, i64 %435
+  %437 = getelementptr inbounds i8, ptr %436, i64 12
+  %438 = load float, ptr %437, align 4
+  %439 = fcmp contract olt float %438, 0.000000e+00
+  br i1 %439, label %759, label %440
 
-503:
-  %504 = mul nuw nsw i64 %169, %434
-  %505 = getelementptr float, ptr %174, i64 %504
-  %506 = getelementptr inbounds i64, ptr %176, i64 %434
-  %507 = getelementptr inbounds i8, ptr %506, i64 8
-  br label %508
+440:
+  %441 = getelementptr inbounds %struct.Frame, ptr %11, i64 %435
+  %442 = load float, ptr %436, align 4
+  %443 = getelementptr inbounds i8, ptr %436, i64 4
+  %444 = load float, ptr %443, align 4
+  %445 = getelementptr inbounds i8, ptr %436, i64 8
+  %446 = load float, ptr %445, align 4
+  %447 = getelementptr inbounds i8, ptr %441, i64 576
+  %448 = load <16 x float>, ptr %447, align 64
+  %449 = load <16 x float>, ptr %441, align 64
+  %450 = insertelement <16 x float> poison, float %442, i64 0
+  %451 = shufflevector <16 x float> %450, <16 x float> poison, <16 x i32> zeroinitializer
+  %452 = fmul contract <16 x float> %451, %449
+  %453 = fadd contract <16 x float> %448, %452
+  %454 = getelementptr inbounds i8, ptr %441, i64 64
+  %455 = load <16 x float>, ptr %454, align 64
+  %456 = insertelement <16 x float> poison, float %444, i64 0
+  %457 = shufflevector <16 x float> %456, <16 x float> poison, <16 x i32> zeroinitializer
+  %458 = fmul contract <16 x float> %457, %455
+  %459 = fadd contract <16 x float> %453, %458
+  %460 = getelementptr inbounds i8, ptr %441, i64 128
+  %461 = load <16 x float>, ptr %460, align 64
+  %462 = insertelement <16 x float> poison, float %446, i64 0
+  %463 = shufflevector <16 x float> %462, <16 x float> poison, <16 x i32> zeroinitializer
+  %464 = fmul contract <16 x float> %463, %461
+  %465 = fadd contract <16 x float> %459, %464
+  %466 = getelementptr inbounds i8, ptr %441, i64 640
+  %467 = load <16 x float>, ptr %466, align 64
+  %468 = getelementptr inbounds i8, ptr %441, i64 192
+  %469 = load <16 x float>, ptr %468, align 64
+  %470 = fmul contract <16 x float> %451, %469
+  %471 = fadd contract <16 x float> %467, %470
+  %472 = getelementptr inbounds i8, ptr %441, i64 256
+  %473 = load <16 x float>, ptr %472, align 64
+  %474 = fmul contract <16 x float> %457, %473
+  %475 = fadd contract <16 x float> %471, %474
+  %476 = getelementptr inbounds i8, ptr %441, i64 320
+  %477 = load <16 x float>, ptr %476, align 64
+  %478 = fmul contract <16 x float> %463, %477
+  %479 = fadd contract <16 x float> %475, %478
+  %480 = getelementptr inbounds i8, ptr %441, i64 704
+  %481 = load <16 x float>, ptr %480, align 64
+  %482 = getelementptr inbounds i8, ptr %441, i64 384
+  %483 = load <16 x float>, ptr %482, align 64
+  %484 = fmul contract <16 x float> %451, %483
+  %485 = fadd contract <16 x float> %481, %484
+  %486 = getelementptr inbounds i8, ptr %441, i64 448
+  %487 = load <16 x float>, ptr %486, align 64
+  %488 = fmul contract <16 x float> %457, %487
+  %489 = fadd contract <16 x float> %485, %488
+  %490 = getelementptr inbounds i8, ptr %441, i64 512
+  %491 = load <16 x float>, ptr %490, align 64
+  %492 = fmul contract <16 x float> %463, %491
+  %493 = fadd contract <16 x float> %489, %492
+  %494 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %435
+  %495 = load float, ptr %494, align 4
+  %496 = insertelement <16 x float> poison, float %495, i64 0
+  %497 = shufflevector <16 x float> %496, <16 x float> poison, <16 x i32> zeroinitializer
+  %498 = fmul contract <16 x float> %163, %497
+  %499 = getelementptr inbounds [17 x float], ptr %168, i64 0, i64 %435
+  %500 = load float, ptr %499, align 4
+  %501 = insertelement <16 x float> poison, float %500, i64 0
+  %502 = shufflevector <16 x float> %501, <16 x float> poison, <16 x i32> zeroinitializer
+  %503 = fadd contract <16 x float> %498, %502
+  br i1 %171, label %504, label %759
 
-508:
-  %509 = phi <16 x i32> [ %433, %503 ], [ %751, %750 ]
-  %510 = phi i64 [ 0, %503 ], [ %752, %750 ]
-  %511 = getelementptr inbounds %struct.Object, ptr %172, i64 %510
-  %512 = getelementptr float, ptr %505, i64 %510
-  %513 = load float, ptr %512, align 4
-  %514 = getelementptr inbounds i8, ptr %511, i64 60
-  %515 = load float, ptr %514, align 4
-  %516 = fadd contract float %513, %515
-  %517 = fcmp contract olt float %516, -1.000000e+08
-  br i1 %517, label %750, label %518
+504:
+  %505 = mul nuw nsw i64 %170, %435
+  %506 = getelementptr float, ptr %175, i64 %505
+  %507 = getelementptr inbounds i64, ptr %177, i64 %435
+  %508 = getelementptr inbounds i8, ptr %507, i64 8
+  br label %509
 
-518:
-  %519 = fadd contract float %437, %516
-  %520 = insertelement <16 x float> poison, float %519, i64 0
-  %521 = shufflevector <16 x float> %520, <16 x float> poison, <16 x i32> zeroinitializer
-  %522 = fadd contract <16 x float> %502, %521
-  %523 = getelementptr inbounds i8, ptr %511, i64 36
-  %524 = load float, ptr %523, align 4
-  %525 = insertelement <16 x float> poison, float %524, i64 0
-  %526 = shufflevector <16 x float> %525, <16 x float> poison, <16 x i32> zeroinitializer
-  %527 = load float, ptr %511, align 4
+509:
+  %510 = phi <16 x i32> [ %434, %504 ], [ %756, %755 ]
+  %511 = phi i64 [ 0, %504 ], [ %757, %755 ]
+  %512 = getelementptr inbounds %struct.Object, ptr %173, i64 %511
+  %513 = getelementptr float, ptr %506, i64 %511
+  %514 = load float, ptr %513, align 4
+  %515 = getelementptr inbounds i8, ptr %512, i64 60
+  %516 = load float, ptr %515, align 4
+  %517 = fadd contract float %514, %516
+  %518 = fcmp contract olt float %517, -1.000000e+08
+  br i1 %518, label %755, label %519
+
+519:
+  %520 = fadd contract float %438, %517
+  %521 = insertelement <16 x float> poison, float %520, i64 0
+  %522 = shufflevector <16 x float> %521, <16 x float> poison, <16 x i32> zeroinitializer
+  %523 = fadd contract <16 x float> %503, %522
+  %524 = fcmp contract ogt <16 x float> %523, %164
+  %525 = select contract <16 x i1> %524, <16 x float> %523, <16 x float> %164
+  %526 = getelementptr inbounds i8, ptr %512, i64 36
+  %527 = load float, ptr %526, align 4
   %528 = insertelement <16 x float> poison, float %527, i64 0
   %529 = shufflevector <16 x float> %528, <16 x float> poison, <16 x i32> zeroinitializer
-  %530 = fmul contract <16 x float> %464, %529
-  %531 = fadd contract <16 x float> %526, %530
-  %532 = getelementptr inbounds i8, ptr %511, i64 4
-  %533 = load float, ptr %532, align 4
-  %534 = insertelement <16 x float> poison, float %533, i64 0
-  %535 = shufflevector <16 x float> %534, <16 x float> poison, <16 x i32> zeroinitializer
-  %536 = fmul contract <16 x float> %478, %535
-  %537 = fadd contract <16 x float> %531, %536
-  %538 = getelementptr inbounds i8, ptr %511, i64 8
-  %539 = load float, ptr %538, align 4
-  %540 = insertelement <16 x float> poison, float %539, i64 0
-  %541 = shufflevector <16 x float> %540, <16 x float> poison, <16 x i32> zeroinitializer
-  %542 = fmul contract <16 x float> %492, %541
-  %543 = fadd contract <16 x float> %537, %542
-  %544 = getelementptr inbounds i8, ptr %511, i64 40
-  %545 = load float, ptr %544, align 4
-  %546 = insertelement <16 x float> poison, float %545, i64 0
-  %547 = shufflevector <16 x float> %546, <16 x float> poison, <16 x i32> zeroinitializer
-  %548 = getelementptr inbounds i8, ptr %511, i64 12
-  %549 = load float, ptr %548, align 4
-  %550 = insertelement <16 x float> poison, float %549, i64 0
-  %551 = shufflevector <16 x float> %550, <16 x float> poison, <16 x i32> zeroinitializer
-  %552 = fmul contract <16 x float> %464, %551
-  %553 = fadd contract <16 x float> %547, %552
-  %554 = getelementptr inbounds i8, ptr %511, i64 16
-  %555 = load float, ptr %554, align 4
-  %556 = insertelement <16 x float> poison, float %555, i64 0
-  %557 = shufflevector <16 x float> %556, <16 x float> poison, <16 x i32> zeroinitializer
-  %558 = fmul contract <16 x float> %478, %557
-  %559 = fadd contract <16 x float> %553, %558
-  %560 = getelementptr inbounds i8, ptr %511, i64 20
-  %561 = load float, ptr %560, align 4
-  %562 = insertelement <16 x float> poison, float %561, i64 0
-  %563 = shufflevector <16 x float> %562, <16 x float> poison, <16 x i32> zeroinitializer
-  %564 = fmul contract <16 x float> %492, %563
-  %565 = fadd contract <16 x float> %559, %564
-  %566 = getelementptr inbounds i8, ptr %511, i64 44
-  %567 = load float, ptr %566, align 4
-  %568 = insertelement <16 x float> poison, float %567, i64 0
-  %569 = shufflevector <16 x float> %568, <16 x float> poison, <16 x i32> zeroinitializer
-  %570 = getelementptr inbounds i8, ptr %511, i64 24
-  %571 = load float, ptr %570, align 4
-  %572 = insertelement <16 x float> poison, float %571, i64 0
-  %573 = shufflevector <16 x float> %572, <16 x float> poison, <16 x i32> zeroinitializer
-  %574 = fmul contract <16 x float> %464, %573
-  %575 = fadd contract <16 x float> %569, %574
-  %576 = getelementptr inbounds i8, ptr %511, i64 28
-  %577 = load float, ptr %576, align 4
-  %578 = insertelement <16 x float> poison, float %577, i64 0
-  %579 = shufflevector <16 x float> %578, <16 x float> poison, <16 x i32> zeroinitializer
-  %580 = fmul contract <16 x float> %478, %579
-  %581 = fadd contract <16 x float> %575, %580
-  %582 = getelementptr inbounds i8, ptr %511, i64 32
-  %583 = load float, ptr %582, align 4
-  %584 = insertelement <16 x float> poison, float %583, i64 0
-  %585 = shufflevector <16 x float> %584, <16 x float> poison, <16 x i32> zeroinitializer
-  %586 = fmul contract <16 x float> %492, %585
-  %587 = fadd contract <16 x float> %581, %586
-  %588 = fmul contract <16 x float> %543, zeroinitializer
-  %589 = getelementptr inbounds i8, ptr %511, i64 68
-  %590 = load float, ptr %589, align 4
-  %591 = fcmp contract une float %590, 0.000000e+00
-  %592 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %587)
-  %593 = select contract i1 %591, <16 x float> %587, <16 x float> %592
-  %594 = getelementptr inbounds i8, ptr %511, i64 64
-  %595 = load float, ptr %594, align 4
-  %596 = fcmp contract une float %595, 0.000000e+00
-  br i1 %596, label %597, label %602
+  %530 = load float, ptr %512, align 4
+  %531 = insertelement <16 x float> poison, float %530, i64 0
+  %532 = shufflevector <16 x float> %531, <16 x float> poison, <16 x i32> zeroinitializer
+  %533 = fmul contract <16 x float> %465, %532
+  %534 = fadd contract <16 x float> %529, %533
+  %535 = getelementptr inbounds i8, ptr %512, i64 4
+  %536 = load float, ptr %535, align 4
+  %537 = insertelement <16 x float> poison, float %536, i64 0
+  %538 = shufflevector <16 x float> %537, <16 x float> poison, <16 x i32> zeroinitializer
+  %539 = fmul contract <16 x float> %479, %538
+  %540 = fadd contract <16 x float> %534, %539
+  %541 = getelementptr inbounds i8, ptr %512, i64 8
+  %542 = load float, ptr %541, align 4
+  %543 = insertelement <16 x float> poison, float %542, i64 0
+  %544 = shufflevector <16 x float> %543, <16 x float> poison, <16 x i32> zeroinitializer
+  %545 = fmul contract <16 x float> %493, %544
+  %546 = fadd contract <16 x float> %540, %545
+  %547 = getelementptr inbounds i8, ptr %512, i64 40
+  %548 = load float, ptr %547, align 4
+  %549 = insertelement <16 x float> poison, float %548, i64 0
+  %550 = shufflevector <16 x float> %549, <16 x float> poison, <16 x i32> zeroinitializer
+  %551 = getelementptr inbounds i8, ptr %512, i64 12
+  %552 = load float, ptr %551, align 4
+  %553 = insertelement <16 x float> poison, float %552, i64 0
+  %554 = shufflevector <16 x float> %553, <16 x float> poison, <16 x i32> zeroinitializer
+  %555 = fmul contract <16 x float> %465, %554
+  %556 = fadd contract <16 x float> %550, %555
+  %557 = getelementptr inbounds i8, ptr %512, i64 16
+  %558 = load float, ptr %557, align 4
+  %559 = insertelement <16 x float> poison, float %558, i64 0
+  %560 = shufflevector <16 x float> %559, <16 x float> poison, <16 x i32> zeroinitializer
+  %561 = fmul contract <16 x float> %479, %560
+  %562 = fadd contract <16 x float> %556, %561
+  %563 = getelementptr inbounds i8, ptr %512, i64 20
+  %564 = load float, ptr %563, align 4
+  %565 = insertelement <16 x float> poison, float %564, i64 0
+  %566 = shufflevector <16 x float> %565, <16 x float> poison, <16 x i32> zeroinitializer
+  %567 = fmul contract <16 x float> %493, %566
+  %568 = fadd contract <16 x float> %562, %567
+  %569 = getelementptr inbounds i8, ptr %512, i64 44
+  %570 = load float, ptr %569, align 4
+  %571 = insertelement <16 x float> poison, float %570, i64 0
+  %572 = shufflevector <16 x float> %571, <16 x float> poison, <16 x i32> zeroinitializer
+  %573 = getelementptr inbounds i8, ptr %512, i64 24
+  %574 = load float, ptr %573, align 4
+  %575 = insertelement <16 x float> poison, float %574, i64 0
+  %576 = shufflevector <16 x float> %575, <16 x float> poison, <16 x i32> zeroinitializer
+  %577 = fmul contract <16 x float> %465, %576
+  %578 = fadd contract <16 x float> %572, %577
+  %579 = getelementptr inbounds i8, ptr %512, i64 28
+  %580 = load float, ptr %579, align 4
+  %581 = insertelement <16 x float> poison, float %580, i64 0
+  %582 = shufflevector <16 x float> %581, <16 x float> poison, <16 x i32> zeroinitializer
+  %583 = fmul contract <16 x float> %479, %582
+  %584 = fadd contract <16 x float> %578, %583
+  %585 = getelementptr inbounds i8, ptr %512, i64 32
+  %586 = load float, ptr %585, align 4
+  %587 = insertelement <16 x float> poison, float %586, i64 0
+  %588 = shufflevector <16 x float> %587, <16 x float> poison, <16 x i32> zeroinitializer
+  %589 = fmul contract <16 x float> %493, %588
+  %590 = fadd contract <16 x float> %584, %589
+  %591 = fmul contract <16 x float> %546, zeroinitializer
+  %592 = getelementptr inbounds i8, ptr %512, i64 68
+  %593 = load float, ptr %592, align 4
+  %594 = fcmp contract une float %593, 0.000000e+00
+  %595 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %590)
+  %596 = select contract i1 %594, <16 x float> %590, <16 x float> %595
+  %597 = getelementptr inbounds i8, ptr %512, i64 64
+  %598 = load float, ptr %597, align 4
+  %599 = fcmp contract une float %598, 0.000000e+00
+  br i1 %599, label %600, label %605
 
-597:
-  %598 = fmul contract <16 x float> %543, %543
-  %599 = fmul contract <16 x float> %565, %565
-  %600 = fadd contract <16 x float> %598, %599
-  %601 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %600)
-  br label %604
+600:
+  %601 = fmul contract <16 x float> %546, %546
+  %602 = fmul contract <16 x float> %568, %568
+  %603 = fadd contract <16 x float> %601, %602
+  %604 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %603)
+  br label %607
 
-602:
-  %603 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %543)
-  br label %604
+605:
+  %606 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %546)
+  br label %607
 
-604:
-  %605 = phi contract <16 x float> [ %601, %597 ], [ %603, %602 ]
-  %606 = getelementptr inbounds i8, ptr %511, i64 48
-  %607 = load float, ptr %606, align 4
-  %608 = insertelement <16 x float> poison, float %607, i64 0
-  %609 = shufflevector <16 x float> %608, <16 x float> poison, <16 x i32> zeroinitializer
-  %610 = fsub contract <16 x float> %605, %609
-  %611 = fcmp contract ogt <16 x float> %610, %588
-  %612 = select contract <16 x i1> %611, <16 x float> %610, <16 x float> %588
-  %613 = getelementptr inbounds i8, ptr %511, i64 56
-  %614 = load float, ptr %613, align 4
-  %615 = insertelement <16 x float> poison, float %614, i64 0
-  %616 = shufflevector <16 x float> %615, <16 x float> poison, <16 x i32> zeroinitializer
-  %617 = fsub contract <16 x float> %593, %616
-  %618 = fcmp contract ogt <16 x float> %617, %588
-  %619 = select contract <16 x i1> %618, <16 x float> %617, <16 x float> %588
-  %620 = fmul contract <16 x float> %612, %612
-  %621 = fmul contract <16 x float> %619, %619
-  %622 = fadd contract <16 x float> %620, %621
-  br i1 %596, label %634, label %623
+607:
+  %608 = phi contract <16 x float> [ %604, %600 ], [ %606, %605 ]
+  %609 = getelementptr inbounds i8, ptr %512, i64 48
+  %610 = load float, ptr %609, align 4
+  %611 = insertelement <16 x float> poison, float %610, i64 0
+  %612 = shufflevector <16 x float> %611, <16 x float> poison, <16 x i32> zeroinitializer
+  %613 = fsub contract <16 x float> %608, %612
+  %614 = fcmp contract ogt <16 x float> %613, %591
+  %615 = select contract <16 x i1> %614, <16 x float> %613, <16 x float> %591
+  %616 = getelementptr inbounds i8, ptr %512, i64 56
+  %617 = load float, ptr %616, align 4
+  %618 = insertelement <16 x float> poison, float %617, i64 0
+  %619 = shufflevector <16 x float> %618, <16 x float> poison, <16 x i32> zeroinitializer
+  %620 = fsub contract <16 x float> %596, %619
+  %621 = fcmp contract ogt <16 x float> %620, %591
+  %622 = select contract <16 x i1> %621, <16 x float> %620, <16 x float> %591
+  %623 = fmul contract <16 x float> %615, %615
+  %624 = fmul contract <16 x float> %622, %622
+  %625 = fadd contract <16 x float> %623, %624
+  br i1 %599, label %637, label %626
 
-623:
-  %624 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %565)
-  %625 = getelementptr inbounds i8, ptr %511, i64 52
-  %626 = load float, ptr %625, align 4
-  %627 = insertelement <16 x float> poison, float %626, i64 0
-  %628 = shufflevector <16 x float> %627, <16 x float> poison, <16 x i32> zeroinitializer
-  %629 = fsub contract <16 x float> %624, %628
-  %630 = fcmp contract ogt <16 x float> %629, %588
-  %631 = select contract <16 x i1> %630, <16 x float> %629, <16 x float> %588
-  %632 = fmul contract <16 x float> %631, %631
-  %633 = fadd contract <16 x float> %622, %632
-  br label %634
+626:
+  %627 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %568)
+  %628 = getelementptr inbounds i8, ptr %512, i64 52
+  %629 = load float, ptr %628, align 4
+  %630 = insertelement <16 x float> poison, float %629, i64 0
+  %631 = shufflevector <16 x float> %630, <16 x float> poison, <16 x i32> zeroinitializer
+  %632 = fsub contract <16 x float> %627, %631
+  %633 = fcmp contract ogt <16 x float> %632, %591
+  %634 = select contract <16 x i1> %633, <16 x float> %632, <16 x float> %591
+  %635 = fmul contract <16 x float> %634, %634
+  %636 = fadd contract <16 x float> %625, %635
+  br label %637
 
-634:
-  %635 = phi <16 x float> [ %633, %623 ], [ %622, %604 ]
-  %636 = fmul contract <16 x float> %522, %522
-  %637 = fcmp contract olt <16 x float> %635, %636
-  %638 = bitcast <16 x i1> %637 to i16
-  %639 = icmp eq i16 %638, 0
-  br i1 %639, label %750, label %640
+637:
+  %638 = phi <16 x float> [ %636, %626 ], [ %625, %607 ]
+  %639 = fmul contract <16 x float> %525, %525
+  %640 = fcmp contract olt <16 x float> %638, %639
+  %641 = bitcast <16 x i1> %640 to i16
+  %642 = icmp eq i16 %641, 0
+  br i1 %642, label %755, label %643
 
-640:
-  %641 = load i64, ptr %506, align 8
-  %642 = load i64, ptr %507, align 8
-  %643 = icmp slt i64 %641, %642
-  br i1 %643, label %644, label %745
+643:
+  %644 = load i64, ptr %507, align 8
+  %645 = load i64, ptr %508, align 8
+  %646 = icmp slt i64 %644, %645
+  br i1 %646, label %647, label %750
 
-644:
-  %645 = getelementptr inbounds i8, ptr %511, i64 52
-  br label %649
-
-646:
-  %647 = add i64 %651, 1
-  %648 = icmp eq i64 %647, %642
-  br i1 %648, label %745, label %649
+647:
+  %648 = getelementptr inbounds i8, ptr %512, i64 52
+  br label %652
 
 649:
-  %650 = phi <16 x i32> [ %509, %644 ], [ %741, %646 ]
-  %651 = phi i64 [ %641, %644 ], [ %647, %646 ]
-  %652 = getelementptr inbounds %struct.Sphere, ptr %178, i64 %651
-  %653 = getelementptr inbounds i8, ptr %652, i64 12
-  %654 = load float, ptr %653, align 4
-  %655 = fadd contract float %516, %654
-  %656 = insertelement <16 x float> poison, float %655, i64 0
-  %657 = shufflevector <16 x float> %656, <16 x float> poison, <16 x i32> zeroinitializer
-  %658 = fadd contract <16 x float> %502, %657
-  %659 = load float, ptr %652, align 4
-  %660 = getelementptr inbounds i8, ptr %652, i64 4
-  %661 = load float, ptr %660, align 4
-  %662 = getelementptr inbounds i8, ptr %652, i64 8
-  %663 = load float, ptr %662, align 4
-  %664 = insertelement <16 x float> poison, float %659, i64 0
-  %665 = shufflevector <16 x float> %664, <16 x float> poison, <16 x i32> zeroinitializer
-  %666 = fmul contract <16 x float> %448, %665
-  %667 = fadd contract <16 x float> %447, %666
-  %668 = insertelement <16 x float> poison, float %661, i64 0
-  %669 = shufflevector <16 x float> %668, <16 x float> poison, <16 x i32> zeroinitializer
-  %670 = fmul contract <16 x float> %454, %669
-  %671 = fadd contract <16 x float> %667, %670
-  %672 = insertelement <16 x float> poison, float %663, i64 0
-  %673 = shufflevector <16 x float> %672, <16 x float> poison, <16 x i32> zeroinitializer
-  %674 = fmul contract <16 x float> %460, %673
-  %675 = fadd contract <16 x float> %671, %674
-  %676 = fmul contract <16 x float> %468, %665
-  %677 = fadd contract <16 x float> %466, %676
-  %678 = fmul contract <16 x float> %472, %669
-  %679 = fadd contract <16 x float> %677, %678
-  %680 = fmul contract <16 x float> %476, %673
-  %681 = fadd contract <16 x float> %679, %680
-  %682 = fmul contract <16 x float> %482, %665
-  %683 = fadd contract <16 x float> %480, %682
-  %684 = fmul contract <16 x float> %486, %669
-  %685 = fadd contract <16 x float> %683, %684
-  %686 = fmul contract <16 x float> %490, %673
-  %687 = fadd contract <16 x float> %685, %686
-  %688 = fmul contract <16 x float> %529, %675
-  %689 = fadd contract <16 x float> %526, %688
-  %690 = fmul contract <16 x float> %535, %681
-  %691 = fadd contract <16 x float> %690, %689
-  %692 = fmul contract <16 x float> %541, %687
-  %693 = fadd contract <16 x float> %692, %691
-  %694 = fmul contract <16 x float> %551, %675
-  %695 = fadd contract <16 x float> %547, %694
-  %696 = fmul contract <16 x float> %557, %681
-  %697 = fadd contract <16 x float> %696, %695
-  %698 = fmul contract <16 x float> %563, %687
-  %699 = fadd contract <16 x float> %698, %697
-  %700 = fmul contract <16 x float> %573, %675
-  %701 = fadd contract <16 x float> %569, %700
-  %702 = fmul contract <16 x float> %579, %681
-  %703 = fadd contract <16 x float> %702, %701
-  %704 = fmul contract <16 x float> %585, %687
-  %705 = fadd contract <16 x float> %704, %703
-  %706 = fmul contract <16 x float> %693, zeroinitializer
-  %707 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %705)
-  %708 = select contract i1 %591, <16 x float> %705, <16 x float> %707
-  br i1 %596, label %709, label %714
+  %650 = add i64 %654, 1
+  %651 = icmp eq i64 %650, %645
+  br i1 %651, label %750, label %652
 
-709:
-  %710 = fmul contract <16 x float> %693, %693
-  %711 = fmul contract <16 x float> %699, %699
-  %712 = fadd contract <16 x float> %710, %711
-  %713 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %712)
-  br label %716
+652:
+  %653 = phi <16 x i32> [ %510, %647 ], [ %746, %649 ]
+  %654 = phi i64 [ %644, %647 ], [ %650, %649 ]
+  %655 = getelementptr inbounds %struct.Sphere, ptr %179, i64 %654
+  %656 = getelementptr inbounds i8, ptr %655, i64 12
+  %657 = load float, ptr %656, align 4
+  %658 = fadd contract float %517, %657
+  %659 = insertelement <16 x float> poison, float %658, i64 0
+  %660 = shufflevector <16 x float> %659, <16 x float> poison, <16 x i32> zeroinitializer
+  %661 = fadd contract <16 x float> %503, %660
+  %662 = fcmp contract ogt <16 x float> %661, %164
+  %663 = select contract <16 x i1> %662, <16 x float> %661, <16 x float> %164
+  %664 = load float, ptr %655, align 4
+  %665 = getelementptr inbounds i8, ptr %655, i64 4
+  %666 = load float, ptr %665, align 4
+  %667 = getelementptr inbounds i8, ptr %655, i64 8
+  %668 = load float, ptr %667, align 4
+  %669 = insertelement <16 x float> poison, float %664, i64 0
+  %670 = shufflevector <16 x float> %669, <16 x float> poison, <16 x i32> zeroinitializer
+  %671 = fmul contract <16 x float> %449, %670
+  %672 = fadd contract <16 x float> %448, %671
+  %673 = insertelement <16 x float> poison, float %666, i64 0
+  %674 = shufflevector <16 x float> %673, <16 x float> poison, <16 x i32> zeroinitializer
+  %675 = fmul contract <16 x float> %455, %674
+  %676 = fadd contract <16 x float> %672, %675
+  %677 = insertelement <16 x float> poison, float %668, i64 0
+  %678 = shufflevector <16 x float> %677, <16 x float> poison, <16 x i32> zeroinitializer
+  %679 = fmul contract <16 x float> %461, %678
+  %680 = fadd contract <16 x float> %676, %679
+  %681 = fmul contract <16 x float> %469, %670
+  %682 = fadd contract <16 x float> %467, %681
+  %683 = fmul contract <16 x float> %473, %674
+  %684 = fadd contract <16 x float> %682, %683
+  %685 = fmul contract <16 x float> %477, %678
+  %686 = fadd contract <16 x float> %684, %685
+  %687 = fmul contract <16 x float> %483, %670
+  %688 = fadd contract <16 x float> %481, %687
+  %689 = fmul contract <16 x float> %487, %674
+  %690 = fadd contract <16 x float> %688, %689
+  %691 = fmul contract <16 x float> %491, %678
+  %692 = fadd contract <16 x float> %690, %691
+  %693 = fmul contract <16 x float> %532, %680
+  %694 = fadd contract <16 x float> %529, %693
+  %695 = fmul contract <16 x float> %538, %686
+  %696 = fadd contract <16 x float> %695, %694
+  %697 = fmul contract <16 x float> %544, %692
+  %698 = fadd contract <16 x float> %697, %696
+  %699 = fmul contract <16 x float> %554, %680
+  %700 = fadd contract <16 x float> %550, %699
+  %701 = fmul contract <16 x float> %560, %686
+  %702 = fadd contract <16 x float> %701, %700
+  %703 = fmul contract <16 x float> %566, %692
+  %704 = fadd contract <16 x float> %703, %702
+  %705 = fmul contract <16 x float> %576, %680
+  %706 = fadd contract <16 x float> %572, %705
+  %707 = fmul contract <16 x float> %582, %686
+  %708 = fadd contract <16 x float> %707, %706
+  %709 = fmul contract <16 x float> %588, %692
+  %710 = fadd contract <16 x float> %709, %708
+  %711 = fmul contract <16 x float> %698, zeroinitializer
+  %712 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %710)
+  %713 = select contract i1 %594, <16 x float> %710, <16 x float> %712
+  br i1 %599, label %714, label %719
 
 714:
-  %715 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %693)
-  br label %716
+  %715 = fmul contract <16 x float> %698, %698
+  %716 = fmul contract <16 x float> %704, %704
+  %717 = fadd contract <16 x float> %715, %716
+  %718 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %717)
+  br label %721
 
-716:
-  %717 = phi contract <16 x float> [ %713, %709 ], [ %715, %714 ]
-  %718 = fsub contract <16 x float> %717, %609
-  %719 = fcmp contract ogt <16 x float> %718, %706
-  %720 = select contract <16 x i1> %719, <16 x float> %718, <16 x float> %706
-  %721 = fsub contract <16 x float> %708, %616
-  %722 = fcmp contract ogt <16 x float> %721, %706
-  %723 = select contract <16 x i1> %722, <16 x float> %721, <16 x float> %706
-  %724 = fmul contract <16 x float> %720, %720
-  %725 = fmul contract <16 x float> %723, %723
-  %726 = fadd contract <16 x float> %725, %724
-  br i1 %596, label %737, label %727
+719:
+  %720 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %698)
+  br label %721
 
-727:
-  %728 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %699)
-  %729 = load float, ptr %645, align 4
-  %730 = insertelement <16 x float> poison, float %729, i64 0
-  %731 = shufflevector <16 x float> %730, <16 x float> poison, <16 x i32> zeroinitializer
-  %732 = fsub contract <16 x float> %728, %731
-  %733 = fcmp contract ogt <16 x float> %732, %706
-  %734 = select contract <16 x i1> %733, <16 x float> %732, <16 x float> %706
-  %735 = fmul contract <16 x float> %734, %734
-  %736 = fadd contract <16 x float> %726, %735
-  br label %737
+721:
+  %722 = phi contract <16 x float> [ %718, %714 ], [ %720, %719 ]
+  %723 = fsub contract <16 x float> %722, %612
+  %724 = fcmp contract ogt <16 x float> %723, %711
+  %725 = select contract <16 x i1> %724, <16 x float> %723, <16 x float> %711
+  %726 = fsub contract <16 x float> %713, %619
+  %727 = fcmp contract ogt <16 x float> %726, %711
+  %728 = select contract <16 x i1> %727, <16 x float> %726, <16 x float> %711
+  %729 = fmul contract <16 x float> %725, %725
+  %730 = fmul contract <16 x float> %728, %728
+  %731 = fadd contract <16 x float> %730, %729
+  br i1 %599, label %742, label %732
 
-737:
-  %738 = phi <16 x float> [ %736, %727 ], [ %726, %716 ]
-  %739 = fmul contract <16 x float> %658, %658
-  %740 = fcmp contract olt <16 x float> %738, %739
-  %741 = select <16 x i1> %740, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %650
-  %742 = icmp ne <16 x i32> %741, zeroinitializer
-  %743 = bitcast <16 x i1> %742 to i16
-  %744 = icmp eq i16 %743, 0
-  br i1 %744, label %646, label %1258
+732:
+  %733 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %704)
+  %734 = load float, ptr %648, align 4
+  %735 = insertelement <16 x float> poison, float %734, i64 0
+  %736 = shufflevector <16 x float> %735, <16 x float> poison, <16 x i32> zeroinitializer
+  %737 = fsub contract <16 x float> %733, %736
+  %738 = fcmp contract ogt <16 x float> %737, %711
+  %739 = select contract <16 x i1> %738, <16 x float> %737, <16 x float> %711
+  %740 = fmul contract <16 x float> %739, %739
+  %741 = fadd contract <16 x float> %731, %740
+  br label %742
 
-745:
-  %746 = phi <16 x i32> [ %509, %640 ], [ %741, %646 ]
-  %747 = icmp eq <16 x i32> %746, zeroinitializer
+742:
+  %743 = phi <16 x float> [ %741, %732 ], [ %731, %721 ]
+  %744 = fmul contract <16 x float> %663, %663
+  %745 = fcmp contract olt <16 x float> %743, %744
+  %746 = select <16 x i1> %745, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %653
+  %747 = icmp ne <16 x i32> %746, zeroinitializer
   %748 = bitcast <16 x i1> %747 to i16
   %749 = icmp eq i16 %748, 0
-  br i1 %749, label %1258, label %750
+  br i1 %749, label %649, label %1271
 
 750:
-  %751 = phi <16 x i32> [ %746, %745 ], [ %509, %634 ], [ %509, %508 ]
-  %752 = add nuw nsw i64 %510, 1
-  %753 = icmp eq i64 %752, %169
-  br i1 %753, label %754, label %508
+  %751 = phi <16 x i32> [ %510, %643 ], [ %746, %649 ]
+  %752 = icmp eq <16 x i32> %751, zeroinitializer
+  %753 = bitcast <16 x i1> %752 to i16
+  %754 = icmp eq i16 %753, 0
+  br i1 %754, label %1271, label %755
 
-754:
-  %755 = phi <16 x i32> [ %433, %432 ], [ %433, %439 ], [ %751, %750 ]
-  %756 = add nuw i64 %434, 1
-  %757 = icmp eq i64 %434, %12
-  br i1 %757, label %758, label %432
+755:
+  %756 = phi <16 x i32> [ %751, %750 ], [ %510, %637 ], [ %510, %509 ]
+  %757 = add nuw nsw i64 %511, 1
+  %758 = icmp eq i64 %757, %170
+  br i1 %758, label %759, label %509
 
-758:
-  %759 = phi <16 x i32> [ zeroinitializer, %431 ], [ zeroinitializer, %227 ], [ %755, %754 ]
+759:
+  %760 = phi <16 x i32> [ %434, %433 ], [ %434, %440 ], [ %756, %755 ]
+  %761 = add nuw i64 %435, 1
+  %762 = icmp eq i64 %435, %12
+  br i1 %762, label %763, label %433
+
+763:
+  %764 = phi <16 x i32> [ zeroinitializer, %432 ], [ zeroinitializer, %228 ], [ %760, %759 ]
   call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %6)
-  br i1 %22, label %760, label %1256
+  br i1 %22, label %765, label %1269
 
-760:
-  %761 = phi <16 x i32> [ %1251, %1250 ], [ %759, %758 ]
-  %762 = phi i64 [ %1252, %1250 ], [ 0, %758 ]
-  %763 = phi i64 [ %1253, %1250 ], [ 0, %758 ]
-  %764 = getelementptr inbounds %struct.LinkPair, ptr %180, i64 %763
-  %765 = load i64, ptr %764, align 8
-  %766 = getelementptr inbounds %struct.Sphere, ptr %182, i64 %765
-  %767 = getelementptr inbounds i8, ptr %764, i64 8
-  %768 = load i64, ptr %767, align 8
-  %769 = getelementptr inbounds %struct.Sphere, ptr %182, i64 %768
-  %770 = getelementptr inbounds %struct.Frame, ptr %11, i64 %765
-  %771 = getelementptr inbounds %struct.Frame, ptr %11, i64 %768
-  %772 = getelementptr inbounds [136 x float], ptr %183, i64 0, i64 %763
-  %773 = load float, ptr %772, align 4
-  %774 = insertelement <16 x float> poison, float %773, i64 0
-  %775 = shufflevector <16 x float> %774, <16 x float> poison, <16 x i32> zeroinitializer
-  %776 = fmul contract <16 x float> %163, %775
-  %777 = getelementptr inbounds [136 x float], ptr %184, i64 0, i64 %763
+765:
+  %766 = phi <16 x i32> [ %1264, %1263 ], [ %764, %763 ]
+  %767 = phi i64 [ %1265, %1263 ], [ 0, %763 ]
+  %768 = phi i64 [ %1266, %1263 ], [ 0, %763 ]
+  %769 = getelementptr inbounds %struct.LinkPair, ptr %181, i64 %768
+  %770 = load i64, ptr %769, align 8
+  %771 = getelementptr inbounds %struct.Sphere, ptr %183, i64 %770
+  %772 = getelementptr inbounds i8, ptr %769, i64 8
+  %773 = load i64, ptr %772, align 8
+  %774 = getelementptr inbounds %struct.Sphere, ptr %183, i64 %773
+  %775 = getelementptr inbounds %struct.Frame, ptr %11, i64 %770
+  %776 = getelementptr inbounds %struct.Frame, ptr %11, i64 %773
+  %777 = getelementptr inbounds [136 x float], ptr %184, i64 0, i64 %768
   %778 = load float, ptr %777, align 4
-  %779 = getelementptr inbounds float, ptr %186, i64 %763
-  %780 = load float, ptr %779, align 4
-  %781 = fadd contract float %778, %780
-  %782 = insertelement <16 x float> poison, float %781, i64 0
-  %783 = shufflevector <16 x float> %782, <16 x float> poison, <16 x i32> zeroinitializer
-  %784 = fadd contract <16 x float> %776, %783
-  %785 = load float, ptr %769, align 4
-  %786 = getelementptr inbounds i8, ptr %769, i64 4
-  %787 = load float, ptr %786, align 4
-  %788 = getelementptr inbounds i8, ptr %769, i64 8
-  %789 = load float, ptr %788, align 4
-  %790 = getelementptr inbounds i8, ptr %771, i64 576
-  %791 = load <16 x float>, ptr %790, align 64
-  %792 = load <16 x float>, ptr %771, align 64
-  %793 = insertelement <16 x float> poison, float %785, i64 0
-  %794 = shufflevector <16 x float> %793, <16 x float> poison, <16 x i32> zeroinitializer
-  %795 = fmul contract <16 x float> %794, %792
-  %796 = fadd contract <16 x float> %791, %795
-  %797 = getelementptr inbounds i8, ptr %771, i64 64
-  %798 = load <16 x float>, ptr %797, align 64
-  %799 = insertelement <16 x float> poison, float %787, i64 0
-  %800 = shufflevector <16 x float> %799, <16 x float> poison, <16 x i32> zeroinitializer
-  %801 = fmul contract <16 x float> %800, %798
-  %802 = fadd contract <16 x float> %796, %801
-  %803 = getelementptr inbounds i8, ptr %771, i64 128
-  %804 = load <16 x float>, ptr %803, align 64
-  %805 = insertelement <16 x float> poison, float %789, i64 0
-  %806 = shufflevector <16 x float> %805, <16 x float> poison, <16 x i32> zeroinitializer
-  %807 = fmul contract <16 x float> %806, %804
-  %808 = fadd contract <16 x float> %802, %807
-  %809 = getelementptr inbounds i8, ptr %771, i64 640
-  %810 = load <16 x float>, ptr %809, align 64
-  %811 = getelementptr inbounds i8, ptr %771, i64 192
-  %812 = load <16 x float>, ptr %811, align 64
-  %813 = fmul contract <16 x float> %794, %812
-  %814 = fadd contract <16 x float> %810, %813
-  %815 = getelementptr inbounds i8, ptr %771, i64 256
-  %816 = load <16 x float>, ptr %815, align 64
-  %817 = fmul contract <16 x float> %800, %816
-  %818 = fadd contract <16 x float> %814, %817
-  %819 = getelementptr inbounds i8, ptr %771, i64 320
-  %820 = load <16 x float>, ptr %819, align 64
-  %821 = fmul contract <16 x float> %806, %820
-  %822 = fadd contract <16 x float> %818, %821
-  %823 = getelementptr inbounds i8, ptr %771, i64 704
-  %824 = load <16 x float>, ptr %823, align 64
-  %825 = getelementptr inbounds i8, ptr %771, i64 384
-  %826 = load <16 x float>, ptr %825, align 64
-  %827 = fmul contract <16 x float> %794, %826
-  %828 = fadd contract <16 x float> %824, %827
-  %829 = getelementptr inbounds i8, ptr %771, i64 448
-  %830 = load <16 x float>, ptr %829, align 64
-  %831 = fmul contract <16 x float> %800, %830
-  %832 = fadd contract <16 x float> %828, %831
-  %833 = getelementptr inbounds i8, ptr %771, i64 512
-  %834 = load <16 x float>, ptr %833, align 64
-  %835 = fmul contract <16 x float> %806, %834
-  %836 = fadd contract <16 x float> %832, %835
-  %837 = getelementptr inbounds i8, ptr %766, i64 12
-  %838 = load float, ptr %837, align 4
-  %839 = getelementptr inbounds i8, ptr %769, i64 12
-  %840 = load float, ptr %839, align 4
-  %841 = fadd contract float %838, %840
-  %842 = insertelement <16 x float> poison, float %841, i64 0
-  %843 = shufflevector <16 x float> %842, <16 x float> poison, <16 x i32> zeroinitializer
-  %844 = fadd contract <16 x float> %784, %843
-  %845 = load float, ptr %766, align 4
-  %846 = getelementptr inbounds i8, ptr %766, i64 4
-  %847 = load float, ptr %846, align 4
-  %848 = getelementptr inbounds i8, ptr %766, i64 8
-  %849 = load float, ptr %848, align 4
-  %850 = getelementptr inbounds i8, ptr %770, i64 576
-  %851 = load <16 x float>, ptr %850, align 64
-  %852 = load <16 x float>, ptr %770, align 64
-  %853 = insertelement <16 x float> poison, float %845, i64 0
-  %854 = shufflevector <16 x float> %853, <16 x float> poison, <16 x i32> zeroinitializer
-  %855 = fmul contract <16 x float> %854, %852
-  %856 = fadd contract <16 x float> %851, %855
-  %857 = getelementptr inbounds i8, ptr %770, i64 64
+  %779 = insertelement <16 x float> poison, float %778, i64 0
+  %780 = shufflevector <16 x float> %779, <16 x float> poison, <16 x i32> zeroinitializer
+  %781 = fmul contract <16 x float> %163, %780
+  %782 = getelementptr inbounds [136 x float], ptr %185, i64 0, i64 %768
+  %783 = load float, ptr %782, align 4
+  %784 = getelementptr inbounds float, ptr %187, i64 %768
+  %785 = load float, ptr %784, align 4
+  %786 = fadd contract float %783, %785
+  %787 = insertelement <16 x float> poison, float %786, i64 0
+  %788 = shufflevector <16 x float> %787, <16 x float> poison, <16 x i32> zeroinitializer
+  %789 = fadd contract <16 x float> %781, %788
+  %790 = load float, ptr %774, align 4
+  %791 = getelementptr inbounds i8, ptr %774, i64 4
+  %792 = load float, ptr %791, align 4
+  %793 = getelementptr inbounds i8, ptr %774, i64 8
+  %794 = load float, ptr %793, align 4
+  %795 = getelementptr inbounds i8, ptr %776, i64 576
+  %796 = load <16 x float>, ptr %795, align 64
+  %797 = load <16 x float>, ptr %776, align 64
+  %798 = insertelement <16 x float> poison, float %790, i64 0
+  %799 = shufflevector <16 x float> %798, <16 x float> poison, <16 x i32> zeroinitializer
+  %800 = fmul contract <16 x float> %799, %797
+  %801 = fadd contract <16 x float> %796, %800
+  %802 = getelementptr inbounds i8, ptr %776, i64 64
+  %803 = load <16 x float>, ptr %802, align 64
+  %804 = insertelement <16 x float> poison, float %792, i64 0
+  %805 = shufflevector <16 x float> %804, <16 x float> poison, <16 x i32> zeroinitializer
+  %806 = fmul contract <16 x float> %805, %803
+  %807 = fadd contract <16 x float> %801, %806
+  %808 = getelementptr inbounds i8, ptr %776, i64 128
+  %809 = load <16 x float>, ptr %808, align 64
+  %810 = insertelement <16 x float> poison, float %794, i64 0
+  %811 = shufflevector <16 x float> %810, <16 x float> poison, <16 x i32> zeroinitializer
+  %812 = fmul contract <16 x float> %811, %809
+  %813 = fadd contract <16 x float> %807, %812
+  %814 = getelementptr inbounds i8, ptr %776, i64 640
+  %815 = load <16 x float>, ptr %814, align 64
+  %816 = getelementptr inbounds i8, ptr %776, i64 192
+  %817 = load <16 x float>, ptr %816, align 64
+  %818 = fmul contract <16 x float> %799, %817
+  %819 = fadd contract <16 x float> %815, %818
+  %820 = getelementptr inbounds i8, ptr %776, i64 256
+  %821 = load <16 x float>, ptr %820, align 64
+  %822 = fmul contract <16 x float> %805, %821
+  %823 = fadd contract <16 x float> %819, %822
+  %824 = getelementptr inbounds i8, ptr %776, i64 320
+  %825 = load <16 x float>, ptr %824, align 64
+  %826 = fmul contract <16 x float> %811, %825
+  %827 = fadd contract <16 x float> %823, %826
+  %828 = getelementptr inbounds i8, ptr %776, i64 704
+  %829 = load <16 x float>, ptr %828, align 64
+  %830 = getelementptr inbounds i8, ptr %776, i64 384
+  %831 = load <16 x float>, ptr %830, align 64
+  %832 = fmul contract <16 x float> %799, %831
+  %833 = fadd contract <16 x float> %829, %832
+  %834 = getelementptr inbounds i8, ptr %776, i64 448
+  %835 = load <16 x float>, ptr %834, align 64
+  %836 = fmul contract <16 x float> %805, %835
+  %837 = fadd contract <16 x float> %833, %836
+  %838 = getelementptr inbounds i8, ptr %776, i64 512
+  %839 = load <16 x float>, ptr %838, align 64
+  %840 = fmul contract <16 x float> %811, %839
+  %841 = fadd contract <16 x float> %837, %840
+  %842 = getelementptr inbounds i8, ptr %771, i64 12
+  %843 = load float, ptr %842, align 4
+  %844 = getelementptr inbounds i8, ptr %774, i64 12
+  %845 = load float, ptr %844, align 4
+  %846 = fadd contract float %843, %845
+  %847 = insertelement <16 x float> poison, float %846, i64 0
+  %848 = shufflevector <16 x float> %847, <16 x float> poison, <16 x i32> zeroinitializer
+  %849 = fadd contract <16 x float> %789, %848
+  %850 = fcmp contract ogt <16 x float> %849, %164
+  %851 = select contract <16 x i1> %850, <16 x float> %849, <16 x float> %164
+  %852 = load float, ptr %771, align 4
+  %853 = getelementptr inbounds i8, ptr %771, i64 4
+  %854 = load float, ptr %853, align 4
+  %855 = getelementptr inbounds i8, ptr %771, i64 8
+  %856 = load float, ptr %855, align 4
+  %857 = getelementptr inbounds i8, ptr %775, i64 576
   %858 = load <16 x float>, ptr %857, align 64
-  %859 = insertelement <16 x float> poison, float %847, i64 0
-  %860 = shufflevector <16 x float> %859, <16 x float> poison, <16 x i32> zeroinitializer
-  %861 = fmul contract <16 x float> %860, %858
-  %862 = fadd contract <16 x float> %856, %861
-  %863 = getelementptr inbounds i8, ptr %770, i64 128
-  %864 = load <16 x float>, ptr %863, align 64
-  %865 = insertelement <16 x float> poison, float %849, i64 0
-  %866 = shufflevector <16 x float> %865, <16 x float> poison, <16 x i32> zeroinitializer
-  %867 = fmul contract <16 x float> %866, %864
-  %868 = fadd contract <16 x float> %862, %867
-  %869 = getelementptr inbounds i8, ptr %770, i64 640
-  %870 = load <16 x float>, ptr %869, align 64
-  %871 = getelementptr inbounds i8, ptr %770, i64 192
-  %872 = load <16 x float>, ptr %871, align 64
-  %873 = fmul contract <16 x float> %854, %872
-  %874 = fadd contract <16 x float> %870, %873
-  %875 = getelementptr inbounds i8, ptr %770, i64 256
-  %876 = load <16 x float>, ptr %875, align 64
-  %877 = fmul contract <16 x float> %860, %876
-  %878 = fadd contract <16 x float> %874, %877
-  %879 = getelementptr inbounds i8, ptr %770, i64 320
-  %880 = load <16 x float>, ptr %879, align 64
-  %881 = fmul contract <16 x float> %866, %880
-  %882 = fadd contract <16 x float> %878, %881
-  %883 = getelementptr inbounds i8, ptr %770, i64 704
-  %884 = load <16 x float>, ptr %883, align 64
-  %885 = getelementptr inbounds i8, ptr %770, i64 384
-  %886 = load <16 x float>, ptr %885, align 64
-  %887 = fmul contract <16 x float> %854, %886
-  %888 = fadd contract <16 x float> %884, %887
-  %889 = getelementptr inbounds i8, ptr %770, i64 448
-  %890 = load <16 x float>, ptr %889, align 64
-  %891 = fmul contract <16 x float> %860, %890
-  %892 = fadd contract <16 x float> %888, %891
-  %893 = getelementptr inbounds i8, ptr %770, i64 512
-  %894 = load <16 x float>, ptr %893, align 64
-  %895 = fmul contract <16 x float> %866, %894
-  %896 = fadd contract <16 x float> %892, %895
-  %897 = fsub contract <16 x float> %868, %808
-  %898 = fsub contract <16 x float> %882, %822
-  %899 = fsub contract <16 x float> %896, %836
-  %900 = fmul contract <16 x float> %897, %897
-  %901 = fmul contract <16 x float> %898, %898
-  %902 = fadd contract <16 x float> %900, %901
-  %903 = fmul contract <16 x float> %899, %899
-  %904 = fadd contract <16 x float> %902, %903
-  %905 = fmul contract <16 x float> %844, %844
-  %906 = fcmp contract olt <16 x float> %904, %905
-  %907 = bitcast <16 x i1> %906 to i16
-  %908 = icmp eq i16 %907, 0
-  br i1 %908, label %1250, label %909
-
-909:
-  call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %7)
-  store i64 %765, ptr %7, align 16
-  store i64 %768, ptr %187, align 8
-  br label %916
-
-910:
-  %911 = getelementptr inbounds i8, ptr %764, i64 16
-  %912 = load i64, ptr %911, align 8
-  %913 = getelementptr inbounds i8, ptr %764, i64 24
-  %914 = load i64, ptr %913, align 8
-  %915 = icmp slt i64 %912, %914
-  br i1 %915, label %997, label %1248
+  %859 = load <16 x float>, ptr %775, align 64
+  %860 = insertelement <16 x float> poison, float %852, i64 0
+  %861 = shufflevector <16 x float> %860, <16 x float> poison, <16 x i32> zeroinitializer
+  %862 = fmul contract <16 x float> %861, %859
+  %863 = fadd contract <16 x float> %858, %862
+  %864 = getelementptr inbounds i8, ptr %775, i64 64
+  %865 = load <16 x float>, ptr %864, align 64
+  %866 = insertelement <16 x float> poison, float %854, i64 0
+  %867 = shufflevector <16 x float> %866, <16 x float> poison, <16 x i32> zeroinitializer
+  %868 = fmul contract <16 x float> %867, %865
+  %869 = fadd contract <16 x float> %863, %868
+  %870 = getelementptr inbounds i8, ptr %775, i64 128
+  %871 = load <16 x float>, ptr %870, align 64
+  %872 = insertelement <16 x float> poison, float %856, i64 0
+  %873 = shufflevector <16 x float> %872, <16 x float> poison, <16 x i32> zeroinitializer
+  %874 = fmul contract <16 x float> %873, %871
+  %875 = fadd contract <16 x float> %869, %874
+  %876 = getelementptr inbounds i8, ptr %775, i64 640
+  %877 = load <16 x float>, ptr %876, align 64
+  %878 = getelementptr inbounds i8, ptr %775, i64 192
+  %879 = load <16 x float>, ptr %878, align 64
+  %880 = fmul contract <16 x float> %861, %879
+  %881 = fadd contract <16 x float> %877, %880
+  %882 = getelementptr inbounds i8, ptr %775, i64 256
+  %883 = load <16 x float>, ptr %882, align 64
+  %884 = fmul contract <16 x float> %867, %883
+  %885 = fadd contract <16 x float> %881, %884
+  %886 = getelementptr inbounds i8, ptr %775, i64 320
+  %887 = load <16 x float>, ptr %886, align 64
+  %888 = fmul contract <16 x float> %873, %887
+  %889 = fadd contract <16 x float> %885, %888
+  %890 = getelementptr inbounds i8, ptr %775, i64 704
+  %891 = load <16 x float>, ptr %890, align 64
+  %892 = getelementptr inbounds i8, ptr %775, i64 384
+  %893 = load <16 x float>, ptr %892, align 64
+  %894 = fmul contract <16 x float> %861, %893
+  %895 = fadd contract <16 x float> %891, %894
+  %896 = getelementptr inbounds i8, ptr %775, i64 448
+  %897 = load <16 x float>, ptr %896, align 64
+  %898 = fmul contract <16 x float> %867, %897
+  %899 = fadd contract <16 x float> %895, %898
+  %900 = getelementptr inbounds i8, ptr %775, i64 512
+  %901 = load <16 x float>, ptr %900, align 64
+  %902 = fmul contract <16 x float> %873, %901
+  %903 = fadd contract <16 x float> %899, %902
+  %904 = fsub contract <16 x float> %875, %813
+  %905 = fsub contract <16 x float> %889, %827
+  %906 = fsub contract <16 x float> %903, %841
+  %907 = fmul contract <16 x float> %904, %904
+  %908 = fmul contract <16 x float> %905, %905
+  %909 = fadd contract <16 x float> %907, %908
+  %910 = fmul contract <16 x float> %906, %906
+  %911 = fadd contract <16 x float> %909, %910
+  %912 = fmul contract <16 x float> %851, %851
+  %913 = fcmp contract olt <16 x float> %911, %912
+  %914 = bitcast <16 x i1> %913 to i16
+  %915 = icmp eq i16 %914, 0
+  br i1 %915, label %1263, label %916
 
 916:
-  %917 = phi i64 [ %762, %909 ], [ %994, %993 ]
-  %918 = phi i64 [ 0, %909 ], [ %995, %993 ]
-  %919 = getelementptr inbounds i8, ptr %7, i64 %918
-  %920 = load i64, ptr %919, align 8
-  %921 = shl nuw i64 1, %920
-  %922 = and i64 %921, %917
-  %923 = icmp eq i64 %922, 0
-  br i1 %923, label %924, label %993
+  call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %7)
+  store i64 %770, ptr %7, align 16
+  store i64 %773, ptr %188, align 8
+  br label %923
 
-924:
-  %925 = or i64 %921, %917
-  %926 = getelementptr inbounds i64, ptr %189, i64 %920
+917:
+  %918 = getelementptr inbounds i8, ptr %769, i64 16
+  %919 = load i64, ptr %918, align 8
+  %920 = getelementptr inbounds i8, ptr %769, i64 24
+  %921 = load i64, ptr %920, align 8
+  %922 = icmp slt i64 %919, %921
+  br i1 %922, label %1004, label %1261
+
+923:
+  %924 = phi i64 [ %767, %916 ], [ %1001, %1000 ]
+  %925 = phi i64 [ 0, %916 ], [ %1002, %1000 ]
+  %926 = getelementptr inbounds i8, ptr %7, i64 %925
   %927 = load i64, ptr %926, align 8
-  %928 = getelementptr i8, ptr %926, i64 8
-  %929 = load i64, ptr %928, align 8
-  %930 = icmp slt i64 %927, %929
-  br i1 %930, label %931, label %993
+  %928 = shl nuw i64 1, %927
+  %929 = and i64 %928, %924
+  %930 = icmp eq i64 %929, 0
+  br i1 %930, label %931, label %1000
 
 931:
-  %932 = getelementptr inbounds %struct.Frame, ptr %11, i64 %920
-  %933 = getelementptr inbounds i8, ptr %932, i64 576
-  %934 = load <16 x float>, ptr %933, align 64
-  %935 = load <16 x float>, ptr %932, align 64
-  %936 = getelementptr inbounds i8, ptr %932, i64 64
-  %937 = load <16 x float>, ptr %936, align 64
-  %938 = getelementptr inbounds i8, ptr %932, i64 128
-  %939 = load <16 x float>, ptr %938, align 64
-  %940 = getelementptr inbounds i8, ptr %932, i64 640
+  %932 = or i64 %928, %924
+  %933 = getelementptr inbounds i64, ptr %190, i64 %927
+  %934 = load i64, ptr %933, align 8
+  %935 = getelementptr i8, ptr %933, i64 8
+  %936 = load i64, ptr %935, align 8
+  %937 = icmp slt i64 %934, %936
+  br i1 %937, label %938, label %1000
+
+938:
+  %939 = getelementptr inbounds %struct.Frame, ptr %11, i64 %927
+  %940 = getelementptr inbounds i8, ptr %939, i64 576
   %941 = load <16 x float>, ptr %940, align 64
-  %942 = getelementptr inbounds i8, ptr %932, i64 192
-  %943 = load <16 x float>, ptr %942, align 64
-  %944 = getelementptr inbounds i8, ptr %932, i64 256
-  %945 = load <16 x float>, ptr %944, align 64
-  %946 = getelementptr inbounds i8, ptr %932, i64 320
-  %947 = load <16 x float>, ptr %946, align 64
-  %948 = getelementptr inbounds i8, ptr %932, i64 704
-  %949 = load <16 x float>, ptr %948, align 64
-  %950 = getelementptr inbounds i8, ptr %932, i64 384
-  %951 = load <16 x float>, ptr %950, align 64
-  %952 = getelementptr inbounds i8, ptr %932, i64 448
-  %953 = load <16 x float>, ptr %952, align 64
-  %954 = getelementptr inbounds i8, ptr %932, i64 512
-  %955 = load <16 x float>, ptr %954, align 64
-  br label %956
+  %942 = load <16 x float>, ptr %939, align 64
+  %943 = getelementptr inbounds i8, ptr %939, i64 64
+  %944 = load <16 x float>, ptr %943, align 64
+  %945 = getelementptr inbounds i8, ptr %939, i64 128
+  %946 = load <16 x float>, ptr %945, align 64
+  %947 = getelementptr inbounds i8, ptr %939, i64 640
+  %948 = load <16 x float>, ptr %947, align 64
+  %949 = getelementptr inbounds i8, ptr %939, i64 192
+  %950 = load <16 x float>, ptr %949, align 64
+  %951 = getelementptr inbounds i8, ptr %939, i64 256
+  %952 = load <16 x float>, ptr %951, align 64
+  %953 = getelementptr inbounds i8, ptr %939, i64 320
+  %954 = load <16 x float>, ptr %953, align 64
+  %955 = getelementptr inbounds i8, ptr %939, i64 704
+  %956 = load <16 x float>, ptr %955, align 64
+  %957 = getelementptr inbounds i8, ptr %939, i64 384
+  %958 = load <16 x float>, ptr %957, align 64
+  %959 = getelementptr inbounds i8, ptr %939, i64 448
+  %960 = load <16 x float>, ptr %959, align 64
+  %961 = getelementptr inbounds i8, ptr %939, i64 512
+  %962 = load <16 x float>, ptr %961, align 64
+  br label %963
 
-956:
-  %957 = phi i64 [ %927, %931 ], [ %991, %956 ]
-  %958 = getelementptr inbounds %struct.Part, ptr %191, i64 %957
-  %959 = load float, ptr %958, align 4
-  %960 = getelementptr inbounds i8, ptr %958, i64 4
-  %961 = load float, ptr %960, align 4
-  %962 = getelementptr inbounds i8, ptr %958, i64 8
-  %963 = load float, ptr %962, align 4
-  %964 = insertelement <16 x float> poison, float %959, i64 0
-  %965 = shufflevector <16 x float> %964, <16 x float> poison, <16 x i32> zeroinitializer
-  %966 = fmul contract <16 x float> %965, %935
-  %967 = fadd contract <16 x float> %934, %966
-  %968 = insertelement <16 x float> poison, float %961, i64 0
-  %969 = shufflevector <16 x float> %968, <16 x float> poison, <16 x i32> zeroinitializer
-  %970 = fmul contract <16 x float> %969, %937
-  %971 = fadd contract <16 x float> %967, %970
-  %972 = insertelement <16 x float> poison, float %963, i64 0
-  %973 = shufflevector <16 x float> %972, <16 x float> poison, <16 x i32> zeroinitializer
-  %974 = fmul contract <16 x float> %973, %939
-  %975 = fadd contract <16 x float> %971, %974
-  %976 = fmul contract <16 x float> %965, %943
-  %977 = fadd contract <16 x float> %941, %976
-  %978 = fmul contract <16 x float> %969, %945
-  %979 = fadd contract <16 x float> %977, %978
-  %980 = fmul contract <16 x float> %973, %947
-  %981 = fadd contract <16 x float> %979, %980
-  %982 = fmul contract <16 x float> %965, %951
-  %983 = fadd contract <16 x float> %949, %982
-  %984 = fmul contract <16 x float> %969, %953
-  %985 = fadd contract <16 x float> %983, %984
-  %986 = fmul contract <16 x float> %973, %955
-  %987 = fadd contract <16 x float> %985, %986
-  %988 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %957
-  store <16 x float> %975, ptr %988, align 64
-  %989 = getelementptr inbounds i8, ptr %988, i64 64
-  store <16 x float> %981, ptr %989, align 64
-  %990 = getelementptr inbounds i8, ptr %988, i64 128
-  store <16 x float> %987, ptr %990, align 64
-  %991 = add nsw i64 %957, 1
-  %992 = icmp eq i64 %991, %929
-  br i1 %992, label %993, label %956
+963:
+  %964 = phi i64 [ %934, %938 ], [ %998, %963 ]
+  %965 = getelementptr inbounds %struct.Part, ptr %192, i64 %964
+  %966 = load float, ptr %965, align 4
+  %967 = getelementptr inbounds i8, ptr %965, i64 4
+  %968 = load float, ptr %967, align 4
+  %969 = getelementptr inbounds i8, ptr %965, i64 8
+  %970 = load float, ptr %969, align 4
+  %971 = insertelement <16 x float> poison, float %966, i64 0
+  %972 = shufflevector <16 x float> %971, <16 x float> poison, <16 x i32> zeroinitializer
+  %973 = fmul contract <16 x float> %972, %942
+  %974 = fadd contract <16 x float> %941, %973
+  %975 = insertelement <16 x float> poison, float %968, i64 0
+  %976 = shufflevector <16 x float> %975, <16 x float> poison, <16 x i32> zeroinitializer
+  %977 = fmul contract <16 x float> %976, %944
+  %978 = fadd contract <16 x float> %974, %977
+  %979 = insertelement <16 x float> poison, float %970, i64 0
+  %980 = shufflevector <16 x float> %979, <16 x float> poison, <16 x i32> zeroinitializer
+  %981 = fmul contract <16 x float> %980, %946
+  %982 = fadd contract <16 x float> %978, %981
+  %983 = fmul contract <16 x float> %972, %950
+  %984 = fadd contract <16 x float> %948, %983
+  %985 = fmul contract <16 x float> %976, %952
+  %986 = fadd contract <16 x float> %984, %985
+  %987 = fmul contract <16 x float> %980, %954
+  %988 = fadd contract <16 x float> %986, %987
+  %989 = fmul contract <16 x float> %972, %958
+  %990 = fadd contract <16 x float> %956, %989
+  %991 = fmul contract <16 x float> %976, %960
+  %992 = fadd contract <16 x float> %990, %991
+  %993 = fmul contract <16 x float> %980, %962
+  %994 = fadd contract <16 x float> %992, %993
+  %995 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %964
+  store <16 x float> %982, ptr %995, align 64
+  %996 = getelementptr inbounds i8, ptr %995, i64 64
+  store <16 x float> %988, ptr %996, align 64
+  %997 = getelementptr inbounds i8, ptr %995, i64 128
+  store <16 x float> %994, ptr %997, align 64
+  %998 = add nsw i64 %964, 1
+  %999 = icmp eq i64 %998, %936
+  br i1 %999, label %1000, label %963
 
-993:
-  %994 = phi i64 [ %917, %916 ], [ %925, %924 ], [ %925, %956 ]
-  %995 = add nuw nsw i64 %918, 8
-  %996 = icmp eq i64 %995, 16
-  br i1 %996, label %910, label %916
+1000:
+  %1001 = phi i64 [ %924, %923 ], [ %932, %931 ], [ %932, %963 ]
+  %1002 = add nuw nsw i64 %925, 8
+  %1003 = icmp eq i64 %1002, 16
+  br i1 %1003, label %917, label %923
 
-997:
-  %998 = phi <16 x i32> [ %1245, %1242 ], [ %761, %910 ]
-  %999 = phi i64 [ %1246, %1242 ], [ %912, %910 ]
-  %1000 = phi i1 [ %1243, %1242 ], [ false, %910 ]
-  %1001 = phi i64 [ %1244, %1242 ], [ -1, %910 ]
-  %1002 = getelementptr inbounds %struct.PartPair, ptr %193, i64 %999
-  %1003 = load i64, ptr %1002, align 8
-  %1004 = getelementptr inbounds %struct.Part, ptr %191, i64 %1003
-  %1005 = getelementptr inbounds i8, ptr %1002, i64 8
-  %1006 = load i64, ptr %1005, align 8
-  %1007 = getelementptr inbounds %struct.Part, ptr %191, i64 %1006
-  %1008 = icmp eq i64 %1003, %1001
-  br i1 %1008, label %1034, label %1009
+1004:
+  %1005 = phi <16 x i32> [ %1258, %1255 ], [ %766, %917 ]
+  %1006 = phi i64 [ %1259, %1255 ], [ %919, %917 ]
+  %1007 = phi i1 [ %1256, %1255 ], [ false, %917 ]
+  %1008 = phi i64 [ %1257, %1255 ], [ -1, %917 ]
+  %1009 = getelementptr inbounds %struct.PartPair, ptr %194, i64 %1006
+  %1010 = load i64, ptr %1009, align 8
+  %1011 = getelementptr inbounds %struct.Part, ptr %192, i64 %1010
+  %1012 = getelementptr inbounds i8, ptr %1009, i64 8
+  %1013 = load i64, ptr %1012, align 8
+  %1014 = getelementptr inbounds %struct.Part, ptr %192, i64 %1013
+  %1015 = icmp eq i64 %1010, %1008
+  br i1 %1015, label %1043, label %1016
 
-1009:
-  %1010 = getelementptr inbounds i8, ptr %1004, i64 28
-  %1011 = load float, ptr %1010, align 4
-  %1012 = fadd contract float %840, %1011
-  %1013 = insertelement <16 x float> poison, float %1012, i64 0
-  %1014 = shufflevector <16 x float> %1013, <16 x float> poison, <16 x i32> zeroinitializer
-  %1015 = fadd contract <16 x float> %784, %1014
-  %1016 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1003
-  %1017 = load <16 x float>, ptr %1016, align 64
-  %1018 = fsub contract <16 x float> %1017, %808
-  %1019 = getelementptr inbounds i8, ptr %1016, i64 64
-  %1020 = load <16 x float>, ptr %1019, align 64
-  %1021 = fsub contract <16 x float> %1020, %822
-  %1022 = getelementptr inbounds i8, ptr %1016, i64 128
-  %1023 = load <16 x float>, ptr %1022, align 64
-  %1024 = fsub contract <16 x float> %1023, %836
-  %1025 = fmul contract <16 x float> %1018, %1018
-  %1026 = fmul contract <16 x float> %1021, %1021
-  %1027 = fadd contract <16 x float> %1025, %1026
-  %1028 = fmul contract <16 x float> %1024, %1024
-  %1029 = fadd contract <16 x float> %1027, %1028
-  %1030 = fmul contract <16 x float> %1015, %1015
-  %1031 = fcmp contract olt <16 x float> %1029, %1030
-  %1032 = bitcast <16 x i1> %1031 to i16
-  %1033 = icmp eq i16 %1032, 0
-  br i1 %1033, label %1242, label %1035
+1016:
+  %1017 = getelementptr inbounds i8, ptr %1011, i64 28
+  %1018 = load float, ptr %1017, align 4
+  %1019 = fadd contract float %845, %1018
+  %1020 = insertelement <16 x float> poison, float %1019, i64 0
+  %1021 = shufflevector <16 x float> %1020, <16 x float> poison, <16 x i32> zeroinitializer
+  %1022 = fadd contract <16 x float> %789, %1021
+  %1023 = fcmp contract ogt <16 x float> %1022, %164
+  %1024 = select contract <16 x i1> %1023, <16 x float> %1022, <16 x float> %164
+  %1025 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1010
+  %1026 = load <16 x float>, ptr %1025, align 64
+  %1027 = fsub contract <16 x float> %1026, %813
+  %1028 = getelementptr inbounds i8, ptr %1025, i64 64
+  %1029 = load <16 x float>, ptr %1028, align 64
+  %1030 = fsub contract <16 x float> %1029, %827
+  %1031 = getelementptr inbounds i8, ptr %1025, i64 128
+  %1032 = load <16 x float>, ptr %1031, align 64
+  %1033 = fsub contract <16 x float> %1032, %841
+  %1034 = fmul contract <16 x float> %1027, %1027
+  %1035 = fmul contract <16 x float> %1030, %1030
+  %1036 = fadd contract <16 x float> %1034, %1035
+  %1037 = fmul contract <16 x float> %1033, %1033
+  %1038 = fadd contract <16 x float> %1036, %1037
+  %1039 = fmul contract <16 x float> %1024, %1024
+  %1040 = fcmp contract olt <16 x float> %1038, %1039
+  %1041 = bitcast <16 x i1> %1040 to i16
+  %1042 = icmp eq i16 %1041, 0
+  br i1 %1042, label %1255, label %1044
 
-1034:
-  br i1 %1000, label %1035, label %1242
+1043:
+  br i1 %1007, label %1044, label %1255
 
-1035:
-  %1036 = phi i64 [ %1003, %1009 ], [ %1001, %1034 ]
-  %1037 = getelementptr inbounds i8, ptr %1004, i64 28
-  %1038 = load float, ptr %1037, align 4
-  %1039 = getelementptr inbounds i8, ptr %1007, i64 28
-  %1040 = load float, ptr %1039, align 4
-  %1041 = fadd contract float %1038, %1040
-  %1042 = insertelement <16 x float> poison, float %1041, i64 0
-  %1043 = shufflevector <16 x float> %1042, <16 x float> poison, <16 x i32> zeroinitializer
-  %1044 = fadd contract <16 x float> %784, %1043
-  %1045 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1003
-  %1046 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1006
-  %1047 = load <16 x float>, ptr %1045, align 64
-  %1048 = load <16 x float>, ptr %1046, align 64
-  %1049 = fsub contract <16 x float> %1047, %1048
-  %1050 = getelementptr inbounds i8, ptr %1045, i64 64
-  %1051 = load <16 x float>, ptr %1050, align 64
-  %1052 = getelementptr inbounds i8, ptr %1046, i64 64
-  %1053 = load <16 x float>, ptr %1052, align 64
-  %1054 = fsub contract <16 x float> %1051, %1053
-  %1055 = getelementptr inbounds i8, ptr %1045, i64 128
-  %1056 = load <16 x float>, ptr %1055, align 64
-  %1057 = getelementptr inbounds i8, ptr %1046, i64 128
-  %1058 = load <16 x float>, ptr %1057, align 64
-  %1059 = fsub contract <16 x float> %1056, %1058
-  %1060 = fmul contract <16 x float> %1049, %1049
-  %1061 = fmul contract <16 x float> %1054, %1054
-  %1062 = fadd contract <16 x float> %1060, %1061
-  %1063 = fmul contract <16 x float> %1059, %1059
-  %1064 = fadd contract <16 x float> %1062, %1063
-  %1065 = fmul contract <16 x float> %1044, %1044
-  %1066 = fcmp contract olt <16 x float> %1064, %1065
-  %1067 = bitcast <16 x i1> %1066 to i16
-  %1068 = icmp eq i16 %1067, 0
-  br i1 %1068, label %1242, label %1069
+1044:
+  %1045 = phi i64 [ %1010, %1016 ], [ %1008, %1043 ]
+  %1046 = getelementptr inbounds i8, ptr %1011, i64 28
+  %1047 = load float, ptr %1046, align 4
+  %1048 = getelementptr inbounds i8, ptr %1014, i64 28
+  %1049 = load float, ptr %1048, align 4
+  %1050 = fadd contract float %1047, %1049
+  %1051 = insertelement <16 x float> poison, float %1050, i64 0
+  %1052 = shufflevector <16 x float> %1051, <16 x float> poison, <16 x i32> zeroinitializer
+  %1053 = fadd contract <16 x float> %789, %1052
+  %1054 = fcmp contract ogt <16 x float> %1053, %164
+  %1055 = select contract <16 x i1> %1054, <16 x float> %1053, <16 x float> %164
+  %1056 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1010
+  %1057 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1013
+  %1058 = load <16 x float>, ptr %1056, align 64
+  %1059 = load <16 x float>, ptr %1057, align 64
+  %1060 = fsub contract <16 x float> %1058, %1059
+  %1061 = getelementptr inbounds i8, ptr %1056, i64 64
+  %1062 = load <16 x float>, ptr %1061, align 64
+  %1063 = getelementptr inbounds i8, ptr %1057, i64 64
+  %1064 = load <16 x float>, ptr %1063, align 64
+  %1065 = fsub contract <16 x float> %1062, %1064
+  %1066 = getelementptr inbounds i8, ptr %1056, i64 128
+  %1067 = load <16 x float>, ptr %1066, align 64
+  %1068 = getelementptr inbounds i8, ptr %1057, i64 128
+  %1069 = load <16 x float>, ptr %1068, align 64
+  %1070 = fsub contract <16 x float> %1067, %1069
+  %1071 = fmul contract <16 x float> %1060, %1060
+  %1072 = fmul contract <16 x float> %1065, %1065
+  %1073 = fadd contract <16 x float> %1071, %1072
+  %1074 = fmul contract <16 x float> %1070, %1070
+  %1075 = fadd contract <16 x float> %1073, %1074
+  %1076 = fmul contract <16 x float> %1055, %1055
+  %1077 = fcmp contract olt <16 x float> %1075, %1076
+  %1078 = bitcast <16 x i1> %1077 to i16
+  %1079 = icmp eq i16 %1078, 0
+  br i1 %1079, label %1255, label %1080
 
-1069:
-  %1070 = getelementptr inbounds i8, ptr %1004, i64 24
-  %1071 = load float, ptr %1070, align 4
-  %1072 = getelementptr inbounds i8, ptr %1007, i64 24
-  %1073 = load float, ptr %1072, align 4
-  %1074 = fadd contract float %1071, %1073
-  %1075 = insertelement <16 x float> poison, float %1074, i64 0
-  %1076 = shufflevector <16 x float> %1075, <16 x float> poison, <16 x i32> zeroinitializer
-  %1077 = fadd contract <16 x float> %784, %1076
-  %1078 = getelementptr inbounds i8, ptr %1004, i64 12
-  %1079 = load float, ptr %1078, align 4
-  %1080 = fmul contract float %1079, %1079
-  %1081 = getelementptr inbounds i8, ptr %1004, i64 16
+1080:
+  %1081 = getelementptr inbounds i8, ptr %1011, i64 24
   %1082 = load float, ptr %1081, align 4
-  %1083 = fmul contract float %1082, %1082
-  %1084 = fadd contract float %1080, %1083
-  %1085 = getelementptr inbounds i8, ptr %1004, i64 20
-  %1086 = load float, ptr %1085, align 4
-  %1087 = fmul contract float %1086, %1086
-  %1088 = fadd contract float %1084, %1087
-  %1089 = getelementptr inbounds i8, ptr %1007, i64 12
-  %1090 = load float, ptr %1089, align 4
-  %1091 = fmul contract float %1090, %1090
-  %1092 = getelementptr inbounds i8, ptr %1007, i64 16
-  %1093 = load float, ptr %1092, align 4
-  %1094 = fmul contract float %1093, %1093
-  %1095 = fadd contract float %1091, %1094
-  %1096 = getelementptr inbounds i8, ptr %1007, i64 20
-  %1097 = load float, ptr %1096, align 4
-  %1098 = fmul contract float %1097, %1097
-  %1099 = fadd contract float %1095, %1098
-  %1100 = fcmp contract oeq float %1088, 0.000000e+00
-  %1101 = fcmp contract oeq float %1099, 0.000000e+00
-  %1102 = select i1 %1100, i1 %1101, i1 false
-  br i1 %1102, label %1234, label %1103
+  %1083 = getelementptr inbounds i8, ptr %1014, i64 24
+  %1084 = load float, ptr %1083, align 4
+  %1085 = fadd contract float %1082, %1084
+  %1086 = insertelement <16 x float> poison, float %1085, i64 0
+  %1087 = shufflevector <16 x float> %1086, <16 x float> poison, <16 x i32> zeroinitializer
+  %1088 = fadd contract <16 x float> %789, %1087
+  %1089 = fcmp contract ogt <16 x float> %1088, %164
+  %1090 = select contract <16 x i1> %1089, <16 x float> %1088, <16 x float> %164
+  %1091 = getelementptr inbounds i8, ptr %1011, i64 12
+  %1092 = load float, ptr %1091, align 4
+  %1093 = fmul contract float %1092, %1092
+  %1094 = getelementptr inbounds i8, ptr %1011, i64 16
+  %1095 = load float, ptr %1094, align 4
+  %1096 = fmul contract float %1095, %1095
+  %1097 = fadd contract float %1093, %1096
+  %1098 = getelementptr inbounds i8, ptr %1011, i64 20
+  %1099 = load float, ptr %1098, align 4
+  %1100 = fmul contract float %1099, %1099
+  %1101 = fadd contract float %1097, %1100
+  %1102 = getelementptr inbounds i8, ptr %1014, i64 12
+  %1103 = load float, ptr %1102, align 4
+  %1104 = fmul contract float %1103, %1103
+  %1105 = getelementptr inbounds i8, ptr %1014, i64 16
+  %1106 = load float, ptr %1105, align 4
+  %1107 = fmul contract float %1106, %1106
+  %1108 = fadd contract float %1104, %1107
+  %1109 = getelementptr inbounds i8, ptr %1014, i64 20
+  %1110 = load float, ptr %1109, align 4
+  %1111 = fmul contract float %1110, %1110
+  %1112 = fadd contract float %1108, %1111
+  %1113 = fcmp contract oeq float %1101, 0.000000e+00
+  %1114 = fcmp contract oeq float %1112, 0.000000e+00
+  %1115 = select i1 %1113, i1 %1114, i1 false
+  br i1 %1115, label %1247, label %1116
 
-1103:
-  %1104 = fmul contract <16 x float> %1047, zeroinitializer
-  %1105 = fadd contract <16 x float> %1104, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %1106 = insertelement <16 x float> poison, float %1079, i64 0
-  %1107 = shufflevector <16 x float> %1106, <16 x float> poison, <16 x i32> zeroinitializer
-  %1108 = fmul contract <16 x float> %852, %1107
-  %1109 = insertelement <16 x float> poison, float %1082, i64 0
-  %1110 = shufflevector <16 x float> %1109, <16 x float> poison, <16 x i32> zeroinitializer
-  %1111 = fmul contract <16 x float> %858, %1110
-  %1112 = fadd contract <16 x float> %1108, %1111
-  %1113 = insertelement <16 x float> poison, float %1086, i64 0
-  %1114 = shufflevector <16 x float> %1113, <16 x float> poison, <16 x i32> zeroinitializer
-  %1115 = fmul contract <16 x float> %864, %1114
-  %1116 = fadd contract <16 x float> %1112, %1115
-  %1117 = fmul contract <16 x float> %872, %1107
-  %1118 = fmul contract <16 x float> %876, %1110
-  %1119 = fadd contract <16 x float> %1117, %1118
-  %1120 = fmul contract <16 x float> %880, %1114
-  %1121 = fadd contract <16 x float> %1119, %1120
-  %1122 = fmul contract <16 x float> %886, %1107
-  %1123 = fmul contract <16 x float> %890, %1110
-  %1124 = fadd contract <16 x float> %1122, %1123
-  %1125 = fmul contract <16 x float> %894, %1114
-  %1126 = fadd contract <16 x float> %1124, %1125
-  %1127 = insertelement <16 x float> poison, float %1090, i64 0
-  %1128 = shufflevector <16 x float> %1127, <16 x float> poison, <16 x i32> zeroinitializer
-  %1129 = fmul contract <16 x float> %792, %1128
-  %1130 = insertelement <16 x float> poison, float %1093, i64 0
-  %1131 = shufflevector <16 x float> %1130, <16 x float> poison, <16 x i32> zeroinitializer
-  %1132 = fmul contract <16 x float> %798, %1131
-  %1133 = fadd contract <16 x float> %1129, %1132
-  %1134 = insertelement <16 x float> poison, float %1097, i64 0
-  %1135 = shufflevector <16 x float> %1134, <16 x float> poison, <16 x i32> zeroinitializer
-  %1136 = fmul contract <16 x float> %804, %1135
-  %1137 = fadd contract <16 x float> %1133, %1136
-  %1138 = fmul contract <16 x float> %812, %1128
-  %1139 = fmul contract <16 x float> %816, %1131
-  %1140 = fadd contract <16 x float> %1138, %1139
-  %1141 = fmul contract <16 x float> %820, %1135
-  %1142 = fadd contract <16 x float> %1140, %1141
-  %1143 = fmul contract <16 x float> %826, %1128
-  %1144 = fmul contract <16 x float> %830, %1131
-  %1145 = fadd contract <16 x float> %1143, %1144
-  %1146 = fmul contract <16 x float> %834, %1135
-  %1147 = fadd contract <16 x float> %1145, %1146
-  %1148 = fcmp contract ogt float %1088, 0.000000e+00
-  %1149 = fdiv contract float 1.000000e+00, %1088
-  %1150 = select contract i1 %1148, float %1149, float 0.000000e+00
-  %1151 = fcmp contract ogt float %1099, 0.000000e+00
-  %1152 = fdiv contract float 1.000000e+00, %1099
-  %1153 = select contract i1 %1151, float %1152, float 0.000000e+00
-  %1154 = fmul contract <16 x float> %1116, %1137
-  %1155 = fmul contract <16 x float> %1121, %1142
-  %1156 = fadd contract <16 x float> %1154, %1155
-  %1157 = fmul contract <16 x float> %1126, %1147
-  %1158 = fadd contract <16 x float> %1157, %1156
-  %1159 = fmul contract <16 x float> %1049, %1116
-  %1160 = fmul contract <16 x float> %1054, %1121
-  %1161 = fadd contract <16 x float> %1159, %1160
-  %1162 = fmul contract <16 x float> %1059, %1126
-  %1163 = fadd contract <16 x float> %1162, %1161
-  %1164 = fmul contract <16 x float> %1049, %1137
-  %1165 = fmul contract <16 x float> %1054, %1142
-  %1166 = fadd contract <16 x float> %1164, %1165
-  %1167 = fmul contract <16 x float> %1059, %1147
-  %1168 = fadd contract <16 x float> %1167, %1166
-  %1169 = fmul contract float %1088, %1099
-  %1170 = insertelement <16 x float> poison, float %1169, i64 0
-  %1171 = shufflevector <16 x float> %1170, <16 x float> poison, <16 x i32> zeroinitializer
-  %1172 = fmul contract <16 x float> %1158, %1158
-  %1173 = fsub contract <16 x float> %1171, %1172
-  %1174 = fmul contract float %1088, 0x3E7AD7F2A0000000
-  %1175 = fmul contract float %1174, %1099
-  %1176 = insertelement <16 x float> poison, float %1175, i64 0
-  %1177 = shufflevector <16 x float> %1176, <16 x float> poison, <16 x i32> zeroinitializer
-  %1178 = fcmp contract ogt <16 x float> %1173, %1177
-  %1179 = fmul contract <16 x float> %1158, %1168
-  %1180 = insertelement <16 x float> poison, float %1099, i64 0
-  %1181 = shufflevector <16 x float> %1180, <16 x float> poison, <16 x i32> zeroinitializer
-  %1182 = fmul contract <16 x float> %1181, %1163
-  %1183 = fsub contract <16 x float> %1179, %1182
-  %1184 = select contract <16 x i1> %1178, <16 x float> %1173, <16 x float> %1105
-  %1185 = fdiv contract <16 x float> %1183, %1184
-  %1186 = fneg contract <16 x float> %1105
-  %1187 = fcmp contract ogt <16 x float> %1185, %1186
-  %1188 = select contract <16 x i1> %1187, <16 x float> %1185, <16 x float> %1186
-  %1189 = fcmp contract olt <16 x float> %1188, %1105
-  %1190 = select contract <16 x i1> %1189, <16 x float> %1188, <16 x float> %1105
-  %1191 = select contract <16 x i1> %1178, <16 x float> %1190, <16 x float> %1186
-  %1192 = fmul contract <16 x float> %1158, %1191
-  %1193 = fadd contract <16 x float> %1168, %1192
-  %1194 = insertelement <16 x float> poison, float %1153, i64 0
-  %1195 = shufflevector <16 x float> %1194, <16 x float> poison, <16 x i32> zeroinitializer
-  %1196 = fmul contract <16 x float> %1195, %1193
-  %1197 = fcmp contract ogt <16 x float> %1196, %1186
-  %1198 = select contract <16 x i1> %1197, <16 x float> %1196, <16 x float> %1186
-  %1199 = fcmp contract olt <16 x float> %1198, %1105
-  %1200 = select contract <16 x i1> %1199, <16 x float> %1198, <16 x float> %1105
-  %1201 = fmul contract <16 x float> %1158, %1200
-  %1202 = fsub contract <16 x float> %1201, %1163
-  %1203 = insertelement <16 x float> poison, float %1150, i64 0
-  %1204 = shufflevector <16 x float> %1203, <16 x float> poison, <16 x i32> zeroinitializer
-  %1205 = fmul contract <16 x float> %1204, %1202
-  %1206 = fcmp contract ogt <16 x float> %1205, %1186
-  %1207 = select contract <16 x i1> %1206, <16 x float> %1205, <16 x float> %1186
-  %1208 = fcmp contract olt <16 x float> %1207, %1105
-  %1209 = select contract <16 x i1> %1208, <16 x float> %1207, <16 x float> %1105
-  %1210 = fmul contract <16 x float> %1158, %1209
-  %1211 = fadd contract <16 x float> %1168, %1210
-  %1212 = fmul contract <16 x float> %1195, %1211
-  %1213 = fcmp contract ogt <16 x float> %1212, %1186
-  %1214 = select contract <16 x i1> %1213, <16 x float> %1212, <16 x float> %1186
-  %1215 = fcmp contract olt <16 x float> %1214, %1105
-  %1216 = select contract <16 x i1> %1215, <16 x float> %1214, <16 x float> %1105
-  %1217 = fmul contract <16 x float> %1116, %1209
-  %1218 = fadd contract <16 x float> %1049, %1217
-  %1219 = fmul contract <16 x float> %1137, %1216
-  %1220 = fsub contract <16 x float> %1218, %1219
-  %1221 = fmul contract <16 x float> %1121, %1209
-  %1222 = fadd contract <16 x float> %1054, %1221
-  %1223 = fmul contract <16 x float> %1142, %1216
-  %1224 = fsub contract <16 x float> %1222, %1223
-  %1225 = fmul contract <16 x float> %1126, %1209
-  %1226 = fadd contract <16 x float> %1059, %1225
-  %1227 = fmul contract <16 x float> %1147, %1216
-  %1228 = fsub contract <16 x float> %1226, %1227
-  %1229 = fmul contract <16 x float> %1220, %1220
-  %1230 = fmul contract <16 x float> %1224, %1224
-  %1231 = fadd contract <16 x float> %1229, %1230
-  %1232 = fmul contract <16 x float> %1228, %1228
-  %1233 = fadd contract <16 x float> %1232, %1231
-  br label %1234
+1116:
+  %1117 = fmul contract <16 x float> %1058, zeroinitializer
+  %1118 = fadd contract <16 x float> %1117, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %1119 = insertelement <16 x float> poison, float %1092, i64 0
+  %1120 = shufflevector <16 x float> %1119, <16 x float> poison, <16 x i32> zeroinitializer
+  %1121 = fmul contract <16 x float> %859, %1120
+  %1122 = insertelement <16 x float> poison, float %1095, i64 0
+  %1123 = shufflevector <16 x float> %1122, <16 x float> poison, <16 x i32> zeroinitializer
+  %1124 = fmul contract <16 x float> %865, %1123
+  %1125 = fadd contract <16 x float> %1121, %1124
+  %1126 = insertelement <16 x float> poison, float %1099, i64 0
+  %1127 = shufflevector <16 x float> %1126, <16 x float> poison, <16 x i32> zeroinitializer
+  %1128 = fmul contract <16 x float> %871, %1127
+  %1129 = fadd contract <16 x float> %1125, %1128
+  %1130 = fmul contract <16 x float> %879, %1120
+  %1131 = fmul contract <16 x float> %883, %1123
+  %1132 = fadd contract <16 x float> %1130, %1131
+  %1133 = fmul contract <16 x float> %887, %1127
+  %1134 = fadd contract <16 x float> %1132, %1133
+  %1135 = fmul contract <16 x float> %893, %1120
+  %1136 = fmul contract <16 x float> %897, %1123
+  %1137 = fadd contract <16 x float> %1135, %1136
+  %1138 = fmul contract <16 x float> %901, %1127
+  %1139 = fadd contract <16 x float> %1137, %1138
+  %1140 = insertelement <16 x float> poison, float %1103, i64 0
+  %1141 = shufflevector <16 x float> %1140, <16 x float> poison, <16 x i32> zeroinitializer
+  %1142 = fmul contract <16 x float> %797, %1141
+  %1143 = insertelement <16 x float> poison, float %1106, i64 0
+  %1144 = shufflevector <16 x float> %1143, <16 x float> poison, <16 x i32> zeroinitializer
+  %1145 = fmul contract <16 x float> %803, %1144
+  %1146 = fadd contract <16 x float> %1142, %1145
+  %1147 = insertelement <16 x float> poison, float %1110, i64 0
+  %1148 = shufflevector <16 x float> %1147, <16 x float> poison, <16 x i32> zeroinitializer
+  %1149 = fmul contract <16 x float> %809, %1148
+  %1150 = fadd contract <16 x float> %1146, %1149
+  %1151 = fmul contract <16 x float> %817, %1141
+  %1152 = fmul contract <16 x float> %821, %1144
+  %1153 = fadd contract <16 x float> %1151, %1152
+  %1154 = fmul contract <16 x float> %825, %1148
+  %1155 = fadd contract <16 x float> %1153, %1154
+  %1156 = fmul contract <16 x float> %831, %1141
+  %1157 = fmul contract <16 x float> %835, %1144
+  %1158 = fadd contract <16 x float> %1156, %1157
+  %1159 = fmul contract <16 x float> %839, %1148
+  %1160 = fadd contract <16 x float> %1158, %1159
+  %1161 = fcmp contract ogt float %1101, 0.000000e+00
+  %1162 = fdiv contract float 1.000000e+00, %1101
+  %1163 = select contract i1 %1161, float %1162, float 0.000000e+00
+  %1164 = fcmp contract ogt float %1112, 0.000000e+00
+  %1165 = fdiv contract float 1.000000e+00, %1112
+  %1166 = select contract i1 %1164, float %1165, float 0.000000e+00
+  %1167 = fmul contract <16 x float> %1129, %1150
+  %1168 = fmul contract <16 x float> %1134, %1155
+  %1169 = fadd contract <16 x float> %1167, %1168
+  %1170 = fmul contract <16 x float> %1139, %1160
+  %1171 = fadd contract <16 x float> %1170, %1169
+  %1172 = fmul contract <16 x float> %1060, %1129
+  %1173 = fmul contract <16 x float> %1065, %1134
+  %1174 = fadd contract <16 x float> %1172, %1173
+  %1175 = fmul contract <16 x float> %1070, %1139
+  %1176 = fadd contract <16 x float> %1175, %1174
+  %1177 = fmul contract <16 x float> %1060, %1150
+  %1178 = fmul contract <16 x float> %1065, %1155
+  %1179 = fadd contract <16 x float> %1177, %1178
+  %1180 = fmul contract <16 x float> %1070, %1160
+  %1181 = fadd contract <16 x float> %1180, %1179
+  %1182 = fmul contract float %1101, %1112
+  %1183 = insertelement <16 x float> poison, float %1182, i64 0
+  %1184 = shufflevector <16 x float> %1183, <16 x float> poison, <16 x i32> zeroinitializer
+  %1185 = fmul contract <16 x float> %1171, %1171
+  %1186 = fsub contract <16 x float> %1184, %1185
+  %1187 = fmul contract float %1101, 0x3E7AD7F2A0000000
+  %1188 = fmul contract float %1187, %1112
+  %1189 = insertelement <16 x float> poison, float %1188, i64 0
+  %1190 = shufflevector <16 x float> %1189, <16 x float> poison, <16 x i32> zeroinitializer
+  %1191 = fcmp contract ogt <16 x float> %1186, %1190
+  %1192 = fmul contract <16 x float> %1171, %1181
+  %1193 = insertelement <16 x float> poison, float %1112, i64 0
+  %1194 = shufflevector <16 x float> %1193, <16 x float> poison, <16 x i32> zeroinitializer
+  %1195 = fmul contract <16 x float> %1194, %1176
+  %1196 = fsub contract <16 x float> %1192, %1195
+  %1197 = select contract <16 x i1> %1191, <16 x float> %1186, <16 x float> %1118
+  %1198 = fdiv contract <16 x float> %1196, %1197
+  %1199 = fneg contract <16 x float> %1118
+  %1200 = fcmp contract ogt <16 x float> %1198, %1199
+  %1201 = select contract <16 x i1> %1200, <16 x float> %1198, <16 x float> %1199
+  %1202 = fcmp contract olt <16 x float> %1201, %1118
+  %1203 = select contract <16 x i1> %1202, <16 x float> %1201, <16 x float> %1118
+  %1204 = select contract <16 x i1> %1191, <16 x float> %1203, <16 x float> %1199
+  %1205 = fmul contract <16 x float> %1171, %1204
+  %1206 = fadd contract <16 x float> %1181, %1205
+  %1207 = insertelement <16 x float> poison, float %1166, i64 0
+  %1208 = shufflevector <16 x float> %1207, <16 x float> poison, <16 x i32> zeroinitializer
+  %1209 = fmul contract <16 x float> %1208, %1206
+  %1210 = fcmp contract ogt <16 x float> %1209, %1199
+  %1211 = select contract <16 x i1> %1210, <16 x float> %1209, <16 x float> %1199
+  %1212 = fcmp contract olt <16 x float> %1211, %1118
+  %1213 = select contract <16 x i1> %1212, <16 x float> %1211, <16 x float> %1118
+  %1214 = fmul contract <16 x float> %1171, %1213
+  %1215 = fsub contract <16 x float> %1214, %1176
+  %1216 = insertelement <16 x float> poison, float %1163, i64 0
+  %1217 = shufflevector <16 x float> %1216, <16 x float> poison, <16 x i32> zeroinitializer
+  %1218 = fmul contract <16 x float> %1217, %1215
+  %1219 = fcmp contract ogt <16 x float> %1218, %1199
+  %1220 = select contract <16 x i1> %1219, <16 x float> %1218, <16 x float> %1199
+  %1221 = fcmp contract olt <16 x float> %1220, %1118
+  %1222 = select contract <16 x i1> %1221, <16 x float> %1220, <16 x float> %1118
+  %1223 = fmul contract <16 x float> %1171, %1222
+  %1224 = fadd contract <16 x float> %1181, %1223
+  %1225 = fmul contract <16 x float> %1208, %1224
+  %1226 = fcmp contract ogt <16 x float> %1225, %1199
+  %1227 = select contract <16 x i1> %1226, <16 x float> %1225, <16 x float> %1199
+  %1228 = fcmp contract olt <16 x float> %1227, %1118
+  %1229 = select contract <16 x i1> %1228, <16 x float> %1227, <16 x float> %1118
+  %1230 = fmul contract <16 x float> %1129, %1222
+  %1231 = fadd contract <16 x float> %1060, %1230
+  %1232 = fmul contract <16 x float> %1150, %1229
+  %1233 = fsub contract <16 x float> %1231, %1232
+  %1234 = fmul contract <16 x float> %1134, %1222
+  %1235 = fadd contract <16 x float> %1065, %1234
+  %1236 = fmul contract <16 x float> %1155, %1229
+  %1237 = fsub contract <16 x float> %1235, %1236
+  %1238 = fmul contract <16 x float> %1139, %1222
+  %1239 = fadd contract <16 x float> %1070, %1238
+  %1240 = fmul contract <16 x float> %1160, %1229
+  %1241 = fsub contract <16 x float> %1239, %1240
+  %1242 = fmul contract <16 x float> %1233, %1233
+  %1243 = fmul contract <16 x float> %1237, %1237
+  %1244 = fadd contract <16 x float> %1242, %1243
+  %1245 = fmul contract <16 x float> %1241, %1241
+  %1246 = fadd contract <16 x float> %1245, %1244
+  br label %1247
 
-1234:
-  %1235 = phi <16 x float> [ %1233, %1103 ], [ %1064, %1069 ]
-  %1236 = fmul contract <16 x float> %1077, %1077
-  %1237 = fcmp contract olt <16 x float> %1235, %1236
-  %1238 = select <16 x i1> %1237, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %998
-  %1239 = icmp ne <16 x i32> %1238, zeroinitializer
-  %1240 = bitcast <16 x i1> %1239 to i16
-  %1241 = icmp eq i16 %1240, 0
-  br i1 %1241, label %1242, label %1255
-
-1242:
-  %1243 = phi i1 [ true, %1035 ], [ false, %1034 ], [ true, %1234 ], [ false, %1009 ]
-  %1244 = phi i64 [ %1036, %1035 ], [ %1001, %1034 ], [ %1036, %1234 ], [ %1003, %1009 ]
-  %1245 = phi <16 x i32> [ %998, %1035 ], [ %998, %1034 ], [ %1238, %1234 ], [ %998, %1009 ]
-  %1246 = add i64 %999, 1
-  %1247 = icmp eq i64 %1246, %914
-  br i1 %1247, label %1248, label %997
-
-1248:
-  %1249 = phi <16 x i32> [ %761, %910 ], [ %1245, %1242 ]
-  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
-  br label %1250
-
-1250:
-  %1251 = phi <16 x i32> [ %1249, %1248 ], [ %761, %760 ]
-  %1252 = phi i64 [ %994, %1248 ], [ %762, %760 ]
-  %1253 = add nuw nsw i64 %763, 1
-  %1254 = icmp eq i64 %1253, %21
-  br i1 %1254, label %1256, label %760
+1247:
+  %1248 = phi <16 x float> [ %1246, %1116 ], [ %1075, %1080 ]
+  %1249 = fmul contract <16 x float> %1090, %1090
+  %1250 = fcmp contract olt <16 x float> %1248, %1249
+  %1251 = select <16 x i1> %1250, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1005
+  %1252 = icmp ne <16 x i32> %1251, zeroinitializer
+  %1253 = bitcast <16 x i1> %1252 to i16
+  %1254 = icmp eq i16 %1253, 0
+  br i1 %1254, label %1255, label %1268
 
 1255:
+  %1256 = phi i1 [ true, %1044 ], [ false, %1043 ], [ true, %1247 ], [ false, %1016 ]
+  %1257 = phi i64 [ %1045, %1044 ], [ %1008, %1043 ], [ %1045, %1247 ], [ %1010, %1016 ]
+  %1258 = phi <16 x i32> [ %1005, %1044 ], [ %1005, %1043 ], [ %1251, %1247 ], [ %1005, %1016 ]
+  %1259 = add i64 %1006, 1
+  %1260 = icmp eq i64 %1259, %921
+  br i1 %1260, label %1261, label %1004
+
+1261:
+  %1262 = phi <16 x i32> [ %766, %917 ], [ %1258, %1255 ]
   call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
-  br label %1256
-
-1256:
-  %1257 = phi <16 x i32> [ %1238, %1255 ], [ %759, %758 ], [ %1251, %1250 ]
-  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
-  br label %1258
-
-1258:
-  %1259 = phi <16 x i32> [ %1257, %1256 ], [ %741, %737 ], [ %746, %745 ]
-  %1260 = icmp ne <16 x i32> %1259, zeroinitializer
-  %1261 = bitcast <16 x i1> %1260 to i16
-  %1262 = icmp eq i16 %1261, 0
-  br i1 %1262, label %203, label %1263
+  br label %1263
 
 1263:
-  %1264 = phi i1 [ true, %153 ], [ %205, %203 ], [ %208, %1258 ]
+  %1264 = phi <16 x i32> [ %1262, %1261 ], [ %766, %765 ]
+  %1265 = phi i64 [ %1001, %1261 ], [ %767, %765 ]
+  %1266 = add nuw nsw i64 %768, 1
+  %1267 = icmp eq i64 %1266, %21
+  br i1 %1267, label %1269, label %765
+
+1268:
+  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
+  br label %1269
+
+1269:
+  %1270 = phi <16 x i32> [ %1251, %1268 ], [ %764, %763 ], [ %1264, %1263 ]
+  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
+  br label %1271
+
+1271:
+  %1272 = phi <16 x i32> [ %1270, %1269 ], [ %746, %742 ], [ %751, %750 ]
+  %1273 = icmp ne <16 x i32> %1272, zeroinitializer
+  %1274 = bitcast <16 x i1> %1273 to i16
+  %1275 = icmp eq i16 %1274, 0
+  br i1 %1275, label %204, label %1276
+
+1276:
+  %1277 = phi i1 [ true, %153 ], [ %206, %204 ], [ %209, %1271 ]
   call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %11)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %10)
   call void @llvm.lifetime.end.p0(i64 1224, ptr nonnull %9)
-  ret i1 %1264
+  ret i1 %1277
 }
 
 declare void @llvm.lifetime.end.p0(i64 immarg, ptr nocapture)
@@ -1563,7 +1576,7 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
   ret void
 
 40:
-  %41 = phi i64 [ 0, %17 ], [ %1304, %1301 ]
+  %41 = phi i64 [ 0, %17 ], [ %1321, %1318 ]
   %42 = mul nsw i64 %41, %15
   %43 = getelementptr inbounds double, ptr %1, i64 %42
   %44 = getelementptr inbounds double, ptr %2, i64 %42
@@ -1768,14 +1781,14 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
   br i1 %187, label %162, label %178
 
 188:
-  %189 = phi i64 [ 8, %162 ], [ %1299, %1298 ]
-  %190 = phi <8 x double> [ undef, %162 ], [ %1262, %1298 ]
-  %191 = phi <8 x double> [ undef, %162 ], [ %1265, %1298 ]
+  %189 = phi i64 [ 8, %162 ], [ %1316, %1315 ]
+  %190 = phi <8 x double> [ undef, %162 ], [ %1279, %1315 ]
+  %191 = phi <8 x double> [ undef, %162 ], [ %1282, %1315 ]
   call void @llvm.lifetime.start.p0(i64 128, ptr nonnull %14)
-  br label %1251
+  br label %1268
 
 192:
-  %193 = fmul contract <8 x double> %1262, zeroinitializer
+  %193 = fmul contract <8 x double> %1279, zeroinitializer
   br label %194
 
 194:
@@ -1790,1266 +1803,1287 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
   store <8 x double> %201, ptr %202, align 64
   %203 = add nuw nsw i64 %195, 1
   %204 = icmp eq i64 %203, 9
-  br i1 %204, label %208, label %194
+  br i1 %204, label %210, label %194
 
 205:
   %206 = tail call i64 @llvm.smin.i64(i64 %189, i64 8)
   %207 = sub nsw i64 %189, %206
-  br i1 %163, label %213, label %747
+  br i1 %163, label %215, label %208
 
 208:
-  %209 = phi i64 [ %211, %208 ], [ 0, %194 ]
-  %210 = getelementptr inbounds [3 x <8 x double>], ptr %24, i64 0, i64 %209
-  store <8 x double> %193, ptr %210, align 64
-  %211 = add nuw nsw i64 %209, 1
-  %212 = icmp eq i64 %211, 3
-  br i1 %212, label %205, label %208
+  %209 = fmul contract <8 x double> %1282, zeroinitializer
+  br label %755
 
-213:
-  %214 = phi i64 [ %270, %423 ], [ 0, %205 ]
-  %215 = getelementptr inbounds %struct.Joint.3, ptr %164, i64 %214
-  %216 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %214
-  %217 = getelementptr inbounds double, ptr %43, i64 %214
-  %218 = load double, ptr %217, align 8
-  %219 = getelementptr inbounds double, ptr %44, i64 %214
+210:
+  %211 = phi i64 [ %213, %210 ], [ 0, %194 ]
+  %212 = getelementptr inbounds [3 x <8 x double>], ptr %24, i64 0, i64 %211
+  store <8 x double> %193, ptr %212, align 64
+  %213 = add nuw nsw i64 %211, 1
+  %214 = icmp eq i64 %213, 3
+  br i1 %214, label %205, label %210
+
+215:
+  %216 = phi i64 [ %272, %425 ], [ 0, %205 ]
+  %217 = getelementptr inbounds %struct.Joint.3, ptr %164, i64 %216
+  %218 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %216
+  %219 = getelementptr inbounds double, ptr %43, i64 %216
   %220 = load double, ptr %219, align 8
-  %221 = insertelement <8 x double> poison, double %220, i64 0
-  %222 = shufflevector <8 x double> %221, <8 x double> poison, <8 x i32> zeroinitializer
-  %223 = getelementptr inbounds i8, ptr %215, i64 72
-  %224 = load double, ptr %223, align 8
-  %225 = getelementptr inbounds i8, ptr %215, i64 80
+  %221 = getelementptr inbounds double, ptr %44, i64 %216
+  %222 = load double, ptr %221, align 8
+  %223 = insertelement <8 x double> poison, double %222, i64 0
+  %224 = shufflevector <8 x double> %223, <8 x double> poison, <8 x i32> zeroinitializer
+  %225 = getelementptr inbounds i8, ptr %217, i64 72
   %226 = load double, ptr %225, align 8
-  %227 = getelementptr inbounds i8, ptr %215, i64 88
+  %227 = getelementptr inbounds i8, ptr %217, i64 80
   %228 = load double, ptr %227, align 8
-  %229 = getelementptr inbounds i8, ptr %216, i64 576
-  %230 = load <8 x double>, ptr %229, align 64
-  %231 = load <8 x double>, ptr %216, align 64
-  %232 = insertelement <8 x double> poison, double %224, i64 0
-  %233 = shufflevector <8 x double> %232, <8 x double> poison, <8 x i32> zeroinitializer
-  %234 = getelementptr inbounds i8, ptr %216, i64 64
-  %235 = load <8 x double>, ptr %234, align 64
-  %236 = insertelement <8 x double> poison, double %226, i64 0
-  %237 = shufflevector <8 x double> %236, <8 x double> poison, <8 x i32> zeroinitializer
-  %238 = getelementptr inbounds i8, ptr %216, i64 128
-  %239 = load <8 x double>, ptr %238, align 64
-  %240 = insertelement <8 x double> poison, double %228, i64 0
-  %241 = shufflevector <8 x double> %240, <8 x double> poison, <8 x i32> zeroinitializer
-  %242 = getelementptr inbounds i8, ptr %216, i64 640
-  %243 = load <8 x double>, ptr %242, align 64
-  %244 = getelementptr inbounds i8, ptr %216, i64 192
+  %229 = getelementptr inbounds i8, ptr %217, i64 88
+  %230 = load double, ptr %229, align 8
+  %231 = getelementptr inbounds i8, ptr %218, i64 576
+  %232 = load <8 x double>, ptr %231, align 64
+  %233 = load <8 x double>, ptr %218, align 64
+  %234 = insertelement <8 x double> poison, double %226, i64 0
+  %235 = shufflevector <8 x double> %234, <8 x double> poison, <8 x i32> zeroinitializer
+  %236 = getelementptr inbounds i8, ptr %218, i64 64
+  %237 = load <8 x double>, ptr %236, align 64
+  %238 = insertelement <8 x double> poison, double %228, i64 0
+  %239 = shufflevector <8 x double> %238, <8 x double> poison, <8 x i32> zeroinitializer
+  %240 = getelementptr inbounds i8, ptr %218, i64 128
+  %241 = load <8 x double>, ptr %240, align 64
+  %242 = insertelement <8 x double> poison, double %230, i64 0
+  %243 = shufflevector <8 x double> %242, <8 x double> poison, <8 x i32> zeroinitializer
+  %244 = getelementptr inbounds i8, ptr %218, i64 640
   %245 = load <8 x double>, ptr %244, align 64
-  %246 = getelementptr inbounds i8, ptr %216, i64 256
+  %246 = getelementptr inbounds i8, ptr %218, i64 192
   %247 = load <8 x double>, ptr %246, align 64
-  %248 = getelementptr inbounds i8, ptr %216, i64 320
+  %248 = getelementptr inbounds i8, ptr %218, i64 256
   %249 = load <8 x double>, ptr %248, align 64
-  %250 = getelementptr inbounds i8, ptr %216, i64 704
+  %250 = getelementptr inbounds i8, ptr %218, i64 320
   %251 = load <8 x double>, ptr %250, align 64
-  %252 = getelementptr inbounds i8, ptr %216, i64 384
+  %252 = getelementptr inbounds i8, ptr %218, i64 704
   %253 = load <8 x double>, ptr %252, align 64
-  %254 = getelementptr inbounds i8, ptr %216, i64 448
+  %254 = getelementptr inbounds i8, ptr %218, i64 384
   %255 = load <8 x double>, ptr %254, align 64
-  %256 = getelementptr inbounds i8, ptr %216, i64 512
+  %256 = getelementptr inbounds i8, ptr %218, i64 448
   %257 = load <8 x double>, ptr %256, align 64
+  %258 = getelementptr inbounds i8, ptr %218, i64 512
+  %259 = load <8 x double>, ptr %258, align 64
   call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %10)
-  br label %258
+  br label %260
 
-258:
-  %259 = phi i64 [ 0, %213 ], [ %301, %300 ]
-  %260 = mul nuw nsw i64 %259, 3
-  %261 = getelementptr inbounds [9 x <8 x double>], ptr %216, i64 0, i64 %260
-  %262 = load <8 x double>, ptr %261, align 64
-  %263 = add nuw nsw i64 %260, 1
-  %264 = getelementptr inbounds [9 x <8 x double>], ptr %216, i64 0, i64 %263
-  %265 = load <8 x double>, ptr %264, align 64
-  %266 = add nuw nsw i64 %260, 2
-  %267 = getelementptr inbounds [9 x <8 x double>], ptr %216, i64 0, i64 %266
-  %268 = load <8 x double>, ptr %267, align 64
-  br label %303
+260:
+  %261 = phi i64 [ 0, %215 ], [ %303, %302 ]
+  %262 = mul nuw nsw i64 %261, 3
+  %263 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %262
+  %264 = load <8 x double>, ptr %263, align 64
+  %265 = add nuw nsw i64 %262, 1
+  %266 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %265
+  %267 = load <8 x double>, ptr %266, align 64
+  %268 = add nuw nsw i64 %262, 2
+  %269 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %268
+  %270 = load <8 x double>, ptr %269, align 64
+  br label %305
 
-269:
-  %270 = add nuw nsw i64 %214, 1
-  %271 = insertelement <8 x double> poison, double %218, i64 0
-  %272 = fmul contract <8 x double> %1262, %222
-  %273 = fmul contract <8 x double> %233, %231
-  %274 = fmul contract <8 x double> %237, %235
-  %275 = fmul contract <8 x double> %241, %239
-  %276 = fmul contract <8 x double> %233, %245
-  %277 = fmul contract <8 x double> %237, %247
-  %278 = fmul contract <8 x double> %241, %249
-  %279 = fmul contract <8 x double> %233, %253
-  %280 = fmul contract <8 x double> %237, %255
-  %281 = fmul contract <8 x double> %241, %257
-  %282 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %270
-  %283 = shufflevector <8 x double> %271, <8 x double> poison, <8 x i32> zeroinitializer
-  %284 = fadd contract <8 x double> %283, %272
-  %285 = fadd contract <8 x double> %230, %273
+271:
+  %272 = add nuw nsw i64 %216, 1
+  %273 = insertelement <8 x double> poison, double %220, i64 0
+  %274 = fmul contract <8 x double> %1279, %224
+  %275 = fmul contract <8 x double> %235, %233
+  %276 = fmul contract <8 x double> %239, %237
+  %277 = fmul contract <8 x double> %243, %241
+  %278 = fmul contract <8 x double> %235, %247
+  %279 = fmul contract <8 x double> %239, %249
+  %280 = fmul contract <8 x double> %243, %251
+  %281 = fmul contract <8 x double> %235, %255
+  %282 = fmul contract <8 x double> %239, %257
+  %283 = fmul contract <8 x double> %243, %259
+  %284 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %272
+  %285 = shufflevector <8 x double> %273, <8 x double> poison, <8 x i32> zeroinitializer
   %286 = fadd contract <8 x double> %285, %274
-  %287 = fadd contract <8 x double> %286, %275
-  %288 = fadd contract <8 x double> %243, %276
+  %287 = fadd contract <8 x double> %232, %275
+  %288 = fadd contract <8 x double> %287, %276
   %289 = fadd contract <8 x double> %288, %277
-  %290 = fadd contract <8 x double> %289, %278
-  %291 = fadd contract <8 x double> %251, %279
+  %290 = fadd contract <8 x double> %245, %278
+  %291 = fadd contract <8 x double> %290, %279
   %292 = fadd contract <8 x double> %291, %280
-  %293 = fadd contract <8 x double> %292, %281
-  %294 = getelementptr inbounds i8, ptr %282, i64 576
-  store <8 x double> %287, ptr %294, align 64
-  %295 = getelementptr inbounds i8, ptr %282, i64 640
-  store <8 x double> %290, ptr %295, align 64
-  %296 = getelementptr inbounds i8, ptr %282, i64 704
-  store <8 x double> %293, ptr %296, align 64
-  %297 = getelementptr inbounds i8, ptr %215, i64 96
-  %298 = load double, ptr %297, align 8
-  %299 = fcmp contract une double %298, 0.000000e+00
-  br i1 %299, label %328, label %347
+  %293 = fadd contract <8 x double> %253, %281
+  %294 = fadd contract <8 x double> %293, %282
+  %295 = fadd contract <8 x double> %294, %283
+  %296 = getelementptr inbounds i8, ptr %284, i64 576
+  store <8 x double> %289, ptr %296, align 64
+  %297 = getelementptr inbounds i8, ptr %284, i64 640
+  store <8 x double> %292, ptr %297, align 64
+  %298 = getelementptr inbounds i8, ptr %284, i64 704
+  store <8 x double> %295, ptr %298, align 64
+  %299 = getelementptr inbounds i8, ptr %217, i64 96
+  %300 = load double, ptr %299, align 8
+  %301 = fcmp contract une double %300, 0.000000e+00
+  br i1 %301, label %330, label %349
 
-300:
-  %301 = add nuw nsw i64 %259, 1
-  %302 = icmp eq i64 %301, 3
-  br i1 %302, label %269, label %258
+302:
+  %303 = add nuw nsw i64 %261, 1
+  %304 = icmp eq i64 %303, 3
+  br i1 %304, label %271, label %260
 
-303:
-  %304 = phi i64 [ 0, %258 ], [ %326, %303 ]
-  %305 = getelementptr inbounds [9 x double], ptr %215, i64 0, i64 %304
-  %306 = load double, ptr %305, align 8
-  %307 = insertelement <8 x double> poison, double %306, i64 0
-  %308 = shufflevector <8 x double> %307, <8 x double> poison, <8 x i32> zeroinitializer
-  %309 = fmul contract <8 x double> %262, %308
-  %310 = add nuw nsw i64 %304, 3
-  %311 = getelementptr inbounds [9 x double], ptr %215, i64 0, i64 %310
-  %312 = load double, ptr %311, align 8
-  %313 = insertelement <8 x double> poison, double %312, i64 0
-  %314 = shufflevector <8 x double> %313, <8 x double> poison, <8 x i32> zeroinitializer
-  %315 = fmul contract <8 x double> %265, %314
-  %316 = fadd contract <8 x double> %309, %315
-  %317 = add nuw nsw i64 %304, 6
-  %318 = getelementptr inbounds [9 x double], ptr %215, i64 0, i64 %317
-  %319 = load double, ptr %318, align 8
-  %320 = insertelement <8 x double> poison, double %319, i64 0
-  %321 = shufflevector <8 x double> %320, <8 x double> poison, <8 x i32> zeroinitializer
-  %322 = fmul contract <8 x double> %268, %321
-  %323 = fadd contract <8 x double> %316, %322
-  %324 = add nuw nsw i64 %304, %260
-  %325 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %324
-  store <8 x double> %323, ptr %325, align 64
-  %326 = add nuw nsw i64 %304, 1
-  %327 = icmp eq i64 %326, 3
-  br i1 %327, label %300, label %303
+305:
+  %306 = phi i64 [ 0, %260 ], [ %328, %305 ]
+  %307 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %306
+  %308 = load double, ptr %307, align 8
+  %309 = insertelement <8 x double> poison, double %308, i64 0
+  %310 = shufflevector <8 x double> %309, <8 x double> poison, <8 x i32> zeroinitializer
+  %311 = fmul contract <8 x double> %264, %310
+  %312 = add nuw nsw i64 %306, 3
+  %313 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %312
+  %314 = load double, ptr %313, align 8
+  %315 = insertelement <8 x double> poison, double %314, i64 0
+  %316 = shufflevector <8 x double> %315, <8 x double> poison, <8 x i32> zeroinitializer
+  %317 = fmul contract <8 x double> %267, %316
+  %318 = fadd contract <8 x double> %311, %317
+  %319 = add nuw nsw i64 %306, 6
+  %320 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %319
+  %321 = load double, ptr %320, align 8
+  %322 = insertelement <8 x double> poison, double %321, i64 0
+  %323 = shufflevector <8 x double> %322, <8 x double> poison, <8 x i32> zeroinitializer
+  %324 = fmul contract <8 x double> %270, %323
+  %325 = fadd contract <8 x double> %318, %324
+  %326 = add nuw nsw i64 %306, %262
+  %327 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %326
+  store <8 x double> %325, ptr %327, align 64
+  %328 = add nuw nsw i64 %306, 1
+  %329 = icmp eq i64 %328, 3
+  br i1 %329, label %302, label %305
 
-328:
-  %329 = phi i64 [ %333, %328 ], [ 0, %269 ]
-  %330 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %329
-  %331 = load <8 x double>, ptr %330, align 64
-  %332 = getelementptr inbounds [9 x <8 x double>], ptr %282, i64 0, i64 %329
-  store <8 x double> %331, ptr %332, align 64
-  %333 = add nuw nsw i64 %329, 1
-  %334 = icmp eq i64 %333, 9
-  br i1 %334, label %335, label %328
+330:
+  %331 = phi i64 [ %335, %330 ], [ 0, %271 ]
+  %332 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %331
+  %333 = load <8 x double>, ptr %332, align 64
+  %334 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %331
+  store <8 x double> %333, ptr %334, align 64
+  %335 = add nuw nsw i64 %331, 1
+  %336 = icmp eq i64 %335, 9
+  br i1 %336, label %337, label %330
 
-335:
-  %336 = phi i64 [ %345, %335 ], [ 0, %328 ]
-  %337 = mul nuw nsw i64 %336, 3
-  %338 = add nuw nsw i64 %337, 2
-  %339 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %338
-  %340 = load <8 x double>, ptr %339, align 64
-  %341 = fmul contract <8 x double> %284, %340
-  %342 = getelementptr inbounds [3 x <8 x double>], ptr %294, i64 0, i64 %336
-  %343 = load <8 x double>, ptr %342, align 64
-  %344 = fadd contract <8 x double> %343, %341
-  store <8 x double> %344, ptr %342, align 64
-  %345 = add nuw nsw i64 %336, 1
-  %346 = icmp eq i64 %345, 3
-  br i1 %346, label %423, label %335
+337:
+  %338 = phi i64 [ %347, %337 ], [ 0, %330 ]
+  %339 = mul nuw nsw i64 %338, 3
+  %340 = add nuw nsw i64 %339, 2
+  %341 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %340
+  %342 = load <8 x double>, ptr %341, align 64
+  %343 = fmul contract <8 x double> %286, %342
+  %344 = getelementptr inbounds [3 x <8 x double>], ptr %296, i64 0, i64 %338
+  %345 = load <8 x double>, ptr %344, align 64
+  %346 = fadd contract <8 x double> %345, %343
+  store <8 x double> %346, ptr %344, align 64
+  %347 = add nuw nsw i64 %338, 1
+  %348 = icmp eq i64 %347, 3
+  br i1 %348, label %425, label %337
 
-347:
-  %348 = fmul contract <8 x double> %284, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %349 = fadd contract <8 x double> %348, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %350 = fadd contract <8 x double> %349, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %351 = fmul contract <8 x double> %350, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %352 = fsub contract <8 x double> %284, %351
-  %353 = fmul contract <8 x double> %350, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %354 = fsub contract <8 x double> %352, %353
-  %355 = fmul contract <8 x double> %350, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+349:
+  %350 = fmul contract <8 x double> %286, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %351 = fadd contract <8 x double> %350, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %352 = fadd contract <8 x double> %351, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %353 = fmul contract <8 x double> %352, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %354 = fsub contract <8 x double> %286, %353
+  %355 = fmul contract <8 x double> %352, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
   %356 = fsub contract <8 x double> %354, %355
-  %357 = fmul contract <8 x double> %350, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %358 = fadd contract <8 x double> %357, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %359 = fadd contract <8 x double> %358, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %360 = fsub contract <8 x double> %357, %359
-  %361 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %360)
-  %362 = fmul contract <8 x double> %361, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %363 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %362
-  %364 = fmul contract <8 x double> %356, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %365 = fmul contract <8 x double> %364, %364
-  %366 = fmul contract <8 x double> %364, %365
-  %367 = fmul contract <8 x double> %365, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %368 = fadd contract <8 x double> %367, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %369 = fmul contract <8 x double> %365, %368
-  %370 = fadd contract <8 x double> %369, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %371 = fmul contract <8 x double> %365, %370
-  %372 = fadd contract <8 x double> %371, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %373 = fmul contract <8 x double> %365, %372
-  %374 = fadd contract <8 x double> %373, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %375 = fmul contract <8 x double> %365, %374
-  %376 = fadd contract <8 x double> %375, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %377 = fmul contract <8 x double> %366, %376
-  %378 = fadd contract <8 x double> %364, %377
-  %379 = fmul contract <8 x double> %365, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %380 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %379
-  %381 = fmul contract <8 x double> %365, %365
-  %382 = fmul contract <8 x double> %365, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %383 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %382
-  %384 = fmul contract <8 x double> %365, %383
-  %385 = fadd contract <8 x double> %384, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %386 = fmul contract <8 x double> %365, %385
-  %387 = fadd contract <8 x double> %386, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %388 = fmul contract <8 x double> %365, %387
-  %389 = fadd contract <8 x double> %388, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %390 = fmul contract <8 x double> %365, %389
-  %391 = fadd contract <8 x double> %390, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
-  %392 = fmul contract <8 x double> %381, %391
-  %393 = fadd contract <8 x double> %380, %392
-  %394 = fmul contract <8 x double> %363, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %395 = fmul contract <8 x double> %394, %378
-  %396 = fmul contract <8 x double> %393, %395
-  %397 = fmul contract <8 x double> %378, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %398 = fmul contract <8 x double> %378, %397
-  %399 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %398
-  %400 = fmul contract <8 x double> %363, %399
-  br label %401
+  %357 = fmul contract <8 x double> %352, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %358 = fsub contract <8 x double> %356, %357
+  %359 = fmul contract <8 x double> %352, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %360 = fadd contract <8 x double> %359, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %361 = fadd contract <8 x double> %360, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %362 = fsub contract <8 x double> %359, %361
+  %363 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %362)
+  %364 = fmul contract <8 x double> %363, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %365 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %364
+  %366 = fmul contract <8 x double> %358, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %367 = fmul contract <8 x double> %366, %366
+  %368 = fmul contract <8 x double> %366, %367
+  %369 = fmul contract <8 x double> %367, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %370 = fadd contract <8 x double> %369, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %371 = fmul contract <8 x double> %367, %370
+  %372 = fadd contract <8 x double> %371, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %373 = fmul contract <8 x double> %367, %372
+  %374 = fadd contract <8 x double> %373, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %375 = fmul contract <8 x double> %367, %374
+  %376 = fadd contract <8 x double> %375, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %377 = fmul contract <8 x double> %367, %376
+  %378 = fadd contract <8 x double> %377, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %379 = fmul contract <8 x double> %368, %378
+  %380 = fadd contract <8 x double> %366, %379
+  %381 = fmul contract <8 x double> %367, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %382 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %381
+  %383 = fmul contract <8 x double> %367, %367
+  %384 = fmul contract <8 x double> %367, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %385 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %384
+  %386 = fmul contract <8 x double> %367, %385
+  %387 = fadd contract <8 x double> %386, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %388 = fmul contract <8 x double> %367, %387
+  %389 = fadd contract <8 x double> %388, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %390 = fmul contract <8 x double> %367, %389
+  %391 = fadd contract <8 x double> %390, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %392 = fmul contract <8 x double> %367, %391
+  %393 = fadd contract <8 x double> %392, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %394 = fmul contract <8 x double> %383, %393
+  %395 = fadd contract <8 x double> %382, %394
+  %396 = fmul contract <8 x double> %365, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %397 = fmul contract <8 x double> %396, %380
+  %398 = fmul contract <8 x double> %395, %397
+  %399 = fmul contract <8 x double> %380, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %400 = fmul contract <8 x double> %380, %399
+  %401 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %400
+  %402 = fmul contract <8 x double> %365, %401
+  br label %403
 
-401:
-  %402 = phi i64 [ 0, %347 ], [ %421, %401 ]
-  %403 = mul nuw nsw i64 %402, 3
-  %404 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %403
-  %405 = load <8 x double>, ptr %404, align 64
-  %406 = fmul contract <8 x double> %400, %405
-  %407 = add nuw nsw i64 %403, 1
-  %408 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %407
-  %409 = load <8 x double>, ptr %408, align 64
-  %410 = fmul contract <8 x double> %396, %409
-  %411 = fadd contract <8 x double> %406, %410
-  %412 = getelementptr inbounds [9 x <8 x double>], ptr %282, i64 0, i64 %403
-  store <8 x double> %411, ptr %412, align 64
-  %413 = fmul contract <8 x double> %400, %409
-  %414 = fmul contract <8 x double> %396, %405
-  %415 = fsub contract <8 x double> %413, %414
-  %416 = getelementptr inbounds [9 x <8 x double>], ptr %282, i64 0, i64 %407
-  store <8 x double> %415, ptr %416, align 64
-  %417 = add nuw nsw i64 %403, 2
-  %418 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %417
-  %419 = load <8 x double>, ptr %418, align 64
-  %420 = getelementptr inbounds [9 x <8 x double>], ptr %282, i64 0, i64 %417
-  store <8 x double> %419, ptr %420, align 64
-  %421 = add nuw nsw i64 %402, 1
-  %422 = icmp eq i64 %421, 3
-  br i1 %422, label %423, label %401
-
-423:
-  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %10)
-  %424 = icmp eq i64 %270, %46
-  br i1 %424, label %425, label %213
+403:
+  %404 = phi i64 [ 0, %349 ], [ %423, %403 ]
+  %405 = mul nuw nsw i64 %404, 3
+  %406 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %405
+  %407 = load <8 x double>, ptr %406, align 64
+  %408 = fmul contract <8 x double> %402, %407
+  %409 = add nuw nsw i64 %405, 1
+  %410 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %409
+  %411 = load <8 x double>, ptr %410, align 64
+  %412 = fmul contract <8 x double> %398, %411
+  %413 = fadd contract <8 x double> %408, %412
+  %414 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %405
+  store <8 x double> %413, ptr %414, align 64
+  %415 = fmul contract <8 x double> %402, %411
+  %416 = fmul contract <8 x double> %398, %407
+  %417 = fsub contract <8 x double> %415, %416
+  %418 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %409
+  store <8 x double> %417, ptr %418, align 64
+  %419 = add nuw nsw i64 %405, 2
+  %420 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %419
+  %421 = load <8 x double>, ptr %420, align 64
+  %422 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %419
+  store <8 x double> %421, ptr %422, align 64
+  %423 = add nuw nsw i64 %404, 1
+  %424 = icmp eq i64 %423, 3
+  br i1 %424, label %425, label %403
 
 425:
-  %426 = phi <8 x i64> [ %744, %743 ], [ zeroinitializer, %423 ]
-  %427 = phi i64 [ %745, %743 ], [ 1, %423 ]
-  %428 = getelementptr inbounds %struct.Sphere.5, ptr %165, i64 %427
-  %429 = getelementptr inbounds i8, ptr %428, i64 24
-  %430 = load double, ptr %429, align 8
-  %431 = fcmp contract olt double %430, 0.000000e+00
-  br i1 %431, label %743, label %432
+  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %10)
+  %426 = icmp eq i64 %272, %46
+  br i1 %426, label %427, label %215
 
-432:
-  %433 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %427
-  %434 = load double, ptr %428, align 8
-  %435 = getelementptr inbounds i8, ptr %428, i64 8
-  %436 = load double, ptr %435, align 8
-  %437 = getelementptr inbounds i8, ptr %428, i64 16
-  %438 = load double, ptr %437, align 8
-  %439 = getelementptr inbounds i8, ptr %433, i64 576
-  %440 = load <8 x double>, ptr %439, align 64
-  %441 = load <8 x double>, ptr %433, align 64
-  %442 = insertelement <8 x double> poison, double %434, i64 0
-  %443 = shufflevector <8 x double> %442, <8 x double> poison, <8 x i32> zeroinitializer
-  %444 = fmul contract <8 x double> %443, %441
-  %445 = fadd contract <8 x double> %440, %444
-  %446 = getelementptr inbounds i8, ptr %433, i64 64
-  %447 = load <8 x double>, ptr %446, align 64
-  %448 = insertelement <8 x double> poison, double %436, i64 0
-  %449 = shufflevector <8 x double> %448, <8 x double> poison, <8 x i32> zeroinitializer
-  %450 = fmul contract <8 x double> %449, %447
-  %451 = fadd contract <8 x double> %445, %450
-  %452 = getelementptr inbounds i8, ptr %433, i64 128
-  %453 = load <8 x double>, ptr %452, align 64
-  %454 = insertelement <8 x double> poison, double %438, i64 0
-  %455 = shufflevector <8 x double> %454, <8 x double> poison, <8 x i32> zeroinitializer
-  %456 = fmul contract <8 x double> %455, %453
-  %457 = fadd contract <8 x double> %451, %456
-  %458 = getelementptr inbounds i8, ptr %433, i64 640
-  %459 = load <8 x double>, ptr %458, align 64
-  %460 = getelementptr inbounds i8, ptr %433, i64 192
-  %461 = load <8 x double>, ptr %460, align 64
-  %462 = fmul contract <8 x double> %443, %461
-  %463 = fadd contract <8 x double> %459, %462
-  %464 = getelementptr inbounds i8, ptr %433, i64 256
+427:
+  %428 = fmul contract <8 x double> %1282, zeroinitializer
+  br label %429
+
+429:
+  %430 = phi <8 x i64> [ %752, %751 ], [ zeroinitializer, %427 ]
+  %431 = phi i64 [ %753, %751 ], [ 1, %427 ]
+  %432 = getelementptr inbounds %struct.Sphere.5, ptr %165, i64 %431
+  %433 = getelementptr inbounds i8, ptr %432, i64 24
+  %434 = load double, ptr %433, align 8
+  %435 = fcmp contract olt double %434, 0.000000e+00
+  br i1 %435, label %751, label %436
+
+436:
+  %437 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %431
+  %438 = load double, ptr %432, align 8
+  %439 = getelementptr inbounds i8, ptr %432, i64 8
+  %440 = load double, ptr %439, align 8
+  %441 = getelementptr inbounds i8, ptr %432, i64 16
+  %442 = load double, ptr %441, align 8
+  %443 = getelementptr inbounds i8, ptr %437, i64 576
+  %444 = load <8 x double>, ptr %443, align 64
+  %445 = load <8 x double>, ptr %437, align 64
+  %446 = insertelement <8 x double> poison, double %438, i64 0
+  %447 = shufflevector <8 x double> %446, <8 x double> poison, <8 x i32> zeroinitializer
+  %448 = fmul contract <8 x double> %447, %445
+  %449 = fadd contract <8 x double> %444, %448
+  %450 = getelementptr inbounds i8, ptr %437, i64 64
+  %451 = load <8 x double>, ptr %450, align 64
+  %452 = insertelement <8 x double> poison, double %440, i64 0
+  %453 = shufflevector <8 x double> %452, <8 x double> poison, <8 x i32> zeroinitializer
+  %454 = fmul contract <8 x double> %453, %451
+  %455 = fadd contract <8 x double> %449, %454
+  %456 = getelementptr inbounds i8, ptr %437, i64 128
+  %457 = load <8 x double>, ptr %456, align 64
+  %458 = insertelement <8 x double> poison, double %442, i64 0
+  %459 = shufflevector <8 x double> %458, <8 x double> poison, <8 x i32> zeroinitializer
+  %460 = fmul contract <8 x double> %459, %457
+  %461 = fadd contract <8 x double> %455, %460
+  %462 = getelementptr inbounds i8, ptr %437, i64 640
+  %463 = load <8 x double>, ptr %462, align 64
+  %464 = getelementptr inbounds i8, ptr %437, i64 192
   %465 = load <8 x double>, ptr %464, align 64
-  %466 = fmul contract <8 x double> %449, %465
+  %466 = fmul contract <8 x double> %447, %465
   %467 = fadd contract <8 x double> %463, %466
-  %468 = getelementptr inbounds i8, ptr %433, i64 320
+  %468 = getelementptr inbounds i8, ptr %437, i64 256
   %469 = load <8 x double>, ptr %468, align 64
-  %470 = fmul contract <8 x double> %455, %469
+  %470 = fmul contract <8 x double> %453, %469
   %471 = fadd contract <8 x double> %467, %470
-  %472 = getelementptr inbounds i8, ptr %433, i64 704
+  %472 = getelementptr inbounds i8, ptr %437, i64 320
   %473 = load <8 x double>, ptr %472, align 64
-  %474 = getelementptr inbounds i8, ptr %433, i64 384
-  %475 = load <8 x double>, ptr %474, align 64
-  %476 = fmul contract <8 x double> %443, %475
-  %477 = fadd contract <8 x double> %473, %476
-  %478 = getelementptr inbounds i8, ptr %433, i64 448
+  %474 = fmul contract <8 x double> %459, %473
+  %475 = fadd contract <8 x double> %471, %474
+  %476 = getelementptr inbounds i8, ptr %437, i64 704
+  %477 = load <8 x double>, ptr %476, align 64
+  %478 = getelementptr inbounds i8, ptr %437, i64 384
   %479 = load <8 x double>, ptr %478, align 64
-  %480 = fmul contract <8 x double> %449, %479
+  %480 = fmul contract <8 x double> %447, %479
   %481 = fadd contract <8 x double> %477, %480
-  %482 = getelementptr inbounds i8, ptr %433, i64 512
+  %482 = getelementptr inbounds i8, ptr %437, i64 448
   %483 = load <8 x double>, ptr %482, align 64
-  %484 = fmul contract <8 x double> %455, %483
+  %484 = fmul contract <8 x double> %453, %483
   %485 = fadd contract <8 x double> %481, %484
-  %486 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %427
-  %487 = load double, ptr %486, align 8
-  %488 = insertelement <8 x double> poison, double %487, i64 0
-  %489 = shufflevector <8 x double> %488, <8 x double> poison, <8 x i32> zeroinitializer
-  %490 = fmul contract <8 x double> %1265, %489
-  %491 = getelementptr inbounds [17 x double], ptr %19, i64 0, i64 %427
-  %492 = load double, ptr %491, align 8
-  %493 = insertelement <8 x double> poison, double %492, i64 0
-  %494 = shufflevector <8 x double> %493, <8 x double> poison, <8 x i32> zeroinitializer
-  %495 = fadd contract <8 x double> %490, %494
-  br i1 %167, label %496, label %743
+  %486 = getelementptr inbounds i8, ptr %437, i64 512
+  %487 = load <8 x double>, ptr %486, align 64
+  %488 = fmul contract <8 x double> %459, %487
+  %489 = fadd contract <8 x double> %485, %488
+  %490 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %431
+  %491 = load double, ptr %490, align 8
+  %492 = insertelement <8 x double> poison, double %491, i64 0
+  %493 = shufflevector <8 x double> %492, <8 x double> poison, <8 x i32> zeroinitializer
+  %494 = fmul contract <8 x double> %1282, %493
+  %495 = getelementptr inbounds [17 x double], ptr %19, i64 0, i64 %431
+  %496 = load double, ptr %495, align 8
+  %497 = insertelement <8 x double> poison, double %496, i64 0
+  %498 = shufflevector <8 x double> %497, <8 x double> poison, <8 x i32> zeroinitializer
+  %499 = fadd contract <8 x double> %494, %498
+  br i1 %167, label %500, label %751
 
-496:
-  %497 = mul nuw nsw i64 %427, %166
-  %498 = getelementptr double, ptr %169, i64 %497
-  %499 = getelementptr inbounds i64, ptr %170, i64 %427
-  %500 = getelementptr inbounds i8, ptr %499, i64 8
-  br label %501
+500:
+  %501 = mul nuw nsw i64 %431, %166
+  %502 = getelementptr double, ptr %169, i64 %501
+  %503 = getelementptr inbounds i64, ptr %170, i64 %431
+  %504 = getelementptr inbounds i8, ptr %503, i64 8
+  br label %505
 
-501:
-  %502 = phi <8 x i64> [ %426, %496 ], [ %740, %739 ]
-  %503 = phi i64 [ 0, %496 ], [ %741, %739 ]
-  %504 = getelementptr inbounds %struct.Object.6, ptr %168, i64 %503
-  %505 = getelementptr double, ptr %498, i64 %503
-  %506 = load double, ptr %505, align 8
-  %507 = getelementptr inbounds i8, ptr %504, i64 120
-  %508 = load double, ptr %507, align 8
-  %509 = fadd contract double %506, %508
-  %510 = fcmp contract olt double %509, -1.000000e+08
-  br i1 %510, label %739, label %511
+505:
+  %506 = phi <8 x i64> [ %430, %500 ], [ %748, %747 ]
+  %507 = phi i64 [ 0, %500 ], [ %749, %747 ]
+  %508 = getelementptr inbounds %struct.Object.6, ptr %168, i64 %507
+  %509 = getelementptr double, ptr %502, i64 %507
+  %510 = load double, ptr %509, align 8
+  %511 = getelementptr inbounds i8, ptr %508, i64 120
+  %512 = load double, ptr %511, align 8
+  %513 = fadd contract double %510, %512
+  %514 = fcmp contract olt double %513, -1.000000e+08
+  br i1 %514, label %747, label %515
 
-511:
-  %512 = fadd contract double %430, %509
-  %513 = insertelement <8 x double> poison, double %512, i64 0
-  %514 = shufflevector <8 x double> %513, <8 x double> poison, <8 x i32> zeroinitializer
-  %515 = fadd contract <8 x double> %495, %514
-  %516 = getelementptr inbounds i8, ptr %504, i64 72
-  %517 = load double, ptr %516, align 8
-  %518 = insertelement <8 x double> poison, double %517, i64 0
-  %519 = shufflevector <8 x double> %518, <8 x double> poison, <8 x i32> zeroinitializer
-  %520 = load double, ptr %504, align 8
-  %521 = insertelement <8 x double> poison, double %520, i64 0
-  %522 = shufflevector <8 x double> %521, <8 x double> poison, <8 x i32> zeroinitializer
-  %523 = fmul contract <8 x double> %457, %522
-  %524 = fadd contract <8 x double> %519, %523
-  %525 = getelementptr inbounds i8, ptr %504, i64 8
-  %526 = load double, ptr %525, align 8
+515:
+  %516 = fadd contract double %434, %513
+  %517 = insertelement <8 x double> poison, double %516, i64 0
+  %518 = shufflevector <8 x double> %517, <8 x double> poison, <8 x i32> zeroinitializer
+  %519 = fadd contract <8 x double> %499, %518
+  %520 = fcmp contract ogt <8 x double> %519, %428
+  %521 = select contract <8 x i1> %520, <8 x double> %519, <8 x double> %428
+  %522 = getelementptr inbounds i8, ptr %508, i64 72
+  %523 = load double, ptr %522, align 8
+  %524 = insertelement <8 x double> poison, double %523, i64 0
+  %525 = shufflevector <8 x double> %524, <8 x double> poison, <8 x i32> zeroinitializer
+  %526 = load double, ptr %508, align 8
   %527 = insertelement <8 x double> poison, double %526, i64 0
   %528 = shufflevector <8 x double> %527, <8 x double> poison, <8 x i32> zeroinitializer
-  %529 = fmul contract <8 x double> %471, %528
-  %530 = fadd contract <8 x double> %524, %529
-  %531 = getelementptr inbounds i8, ptr %504, i64 16
+  %529 = fmul contract <8 x double> %461, %528
+  %530 = fadd contract <8 x double> %525, %529
+  %531 = getelementptr inbounds i8, ptr %508, i64 8
   %532 = load double, ptr %531, align 8
   %533 = insertelement <8 x double> poison, double %532, i64 0
   %534 = shufflevector <8 x double> %533, <8 x double> poison, <8 x i32> zeroinitializer
-  %535 = fmul contract <8 x double> %485, %534
+  %535 = fmul contract <8 x double> %475, %534
   %536 = fadd contract <8 x double> %530, %535
-  %537 = getelementptr inbounds i8, ptr %504, i64 80
+  %537 = getelementptr inbounds i8, ptr %508, i64 16
   %538 = load double, ptr %537, align 8
   %539 = insertelement <8 x double> poison, double %538, i64 0
   %540 = shufflevector <8 x double> %539, <8 x double> poison, <8 x i32> zeroinitializer
-  %541 = getelementptr inbounds i8, ptr %504, i64 24
-  %542 = load double, ptr %541, align 8
-  %543 = insertelement <8 x double> poison, double %542, i64 0
-  %544 = shufflevector <8 x double> %543, <8 x double> poison, <8 x i32> zeroinitializer
-  %545 = fmul contract <8 x double> %457, %544
-  %546 = fadd contract <8 x double> %540, %545
-  %547 = getelementptr inbounds i8, ptr %504, i64 32
+  %541 = fmul contract <8 x double> %489, %540
+  %542 = fadd contract <8 x double> %536, %541
+  %543 = getelementptr inbounds i8, ptr %508, i64 80
+  %544 = load double, ptr %543, align 8
+  %545 = insertelement <8 x double> poison, double %544, i64 0
+  %546 = shufflevector <8 x double> %545, <8 x double> poison, <8 x i32> zeroinitializer
+  %547 = getelementptr inbounds i8, ptr %508, i64 24
   %548 = load double, ptr %547, align 8
   %549 = insertelement <8 x double> poison, double %548, i64 0
   %550 = shufflevector <8 x double> %549, <8 x double> poison, <8 x i32> zeroinitializer
-  %551 = fmul contract <8 x double> %471, %550
+  %551 = fmul contract <8 x double> %461, %550
   %552 = fadd contract <8 x double> %546, %551
-  %553 = getelementptr inbounds i8, ptr %504, i64 40
+  %553 = getelementptr inbounds i8, ptr %508, i64 32
   %554 = load double, ptr %553, align 8
   %555 = insertelement <8 x double> poison, double %554, i64 0
   %556 = shufflevector <8 x double> %555, <8 x double> poison, <8 x i32> zeroinitializer
-  %557 = fmul contract <8 x double> %485, %556
+  %557 = fmul contract <8 x double> %475, %556
   %558 = fadd contract <8 x double> %552, %557
-  %559 = getelementptr inbounds i8, ptr %504, i64 88
+  %559 = getelementptr inbounds i8, ptr %508, i64 40
   %560 = load double, ptr %559, align 8
   %561 = insertelement <8 x double> poison, double %560, i64 0
   %562 = shufflevector <8 x double> %561, <8 x double> poison, <8 x i32> zeroinitializer
-  %563 = getelementptr inbounds i8, ptr %504, i64 48
-  %564 = load double, ptr %563, align 8
-  %565 = insertelement <8 x double> poison, double %564, i64 0
-  %566 = shufflevector <8 x double> %565, <8 x double> poison, <8 x i32> zeroinitializer
-  %567 = fmul contract <8 x double> %457, %566
-  %568 = fadd contract <8 x double> %562, %567
-  %569 = getelementptr inbounds i8, ptr %504, i64 56
+  %563 = fmul contract <8 x double> %489, %562
+  %564 = fadd contract <8 x double> %558, %563
+  %565 = getelementptr inbounds i8, ptr %508, i64 88
+  %566 = load double, ptr %565, align 8
+  %567 = insertelement <8 x double> poison, double %566, i64 0
+  %568 = shufflevector <8 x double> %567, <8 x double> poison, <8 x i32> zeroinitializer
+  %569 = getelementptr inbounds i8, ptr %508, i64 48
   %570 = load double, ptr %569, align 8
   %571 = insertelement <8 x double> poison, double %570, i64 0
   %572 = shufflevector <8 x double> %571, <8 x double> poison, <8 x i32> zeroinitializer
-  %573 = fmul contract <8 x double> %471, %572
+  %573 = fmul contract <8 x double> %461, %572
   %574 = fadd contract <8 x double> %568, %573
-  %575 = getelementptr inbounds i8, ptr %504, i64 64
+  %575 = getelementptr inbounds i8, ptr %508, i64 56
   %576 = load double, ptr %575, align 8
   %577 = insertelement <8 x double> poison, double %576, i64 0
   %578 = shufflevector <8 x double> %577, <8 x double> poison, <8 x i32> zeroinitializer
-  %579 = fmul contract <8 x double> %485, %578
+  %579 = fmul contract <8 x double> %475, %578
   %580 = fadd contract <8 x double> %574, %579
-  %581 = fmul contract <8 x double> %536, zeroinitializer
-  %582 = getelementptr inbounds i8, ptr %504, i64 136
-  %583 = load double, ptr %582, align 8
-  %584 = fcmp contract une double %583, 0.000000e+00
-  %585 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %580)
-  %586 = select contract i1 %584, <8 x double> %580, <8 x double> %585
-  %587 = getelementptr inbounds i8, ptr %504, i64 128
-  %588 = load double, ptr %587, align 8
-  %589 = fcmp contract une double %588, 0.000000e+00
-  br i1 %589, label %590, label %595
+  %581 = getelementptr inbounds i8, ptr %508, i64 64
+  %582 = load double, ptr %581, align 8
+  %583 = insertelement <8 x double> poison, double %582, i64 0
+  %584 = shufflevector <8 x double> %583, <8 x double> poison, <8 x i32> zeroinitializer
+  %585 = fmul contract <8 x double> %489, %584
+  %586 = fadd contract <8 x double> %580, %585
+  %587 = fmul contract <8 x double> %542, zeroinitializer
+  %588 = getelementptr inbounds i8, ptr %508, i64 136
+  %589 = load double, ptr %588, align 8
+  %590 = fcmp contract une double %589, 0.000000e+00
+  %591 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %586)
+  %592 = select contract i1 %590, <8 x double> %586, <8 x double> %591
+  %593 = getelementptr inbounds i8, ptr %508, i64 128
+  %594 = load double, ptr %593, align 8
+  %595 = fcmp contract une double %594, 0.000000e+00
+  br i1 %595, label %596, label %601
 
-590:
-  %591 = fmul contract <8 x double> %536, %536
-  %592 = fmul contract <8 x double> %558, %558
-  %593 = fadd contract <8 x double> %591, %592
-  %594 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %593)
-  br label %597
+596:
+  %597 = fmul contract <8 x double> %542, %542
+  %598 = fmul contract <8 x double> %564, %564
+  %599 = fadd contract <8 x double> %597, %598
+  %600 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %599)
+  br label %603
 
-595:
-  %596 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %536)
-  br label %597
+601:
+  %602 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %542)
+  br label %603
 
-597:
-  %598 = phi contract <8 x double> [ %594, %590 ], [ %596, %595 ]
-  %599 = getelementptr inbounds i8, ptr %504, i64 96
-  %600 = load double, ptr %599, align 8
-  %601 = insertelement <8 x double> poison, double %600, i64 0
-  %602 = shufflevector <8 x double> %601, <8 x double> poison, <8 x i32> zeroinitializer
-  %603 = fsub contract <8 x double> %598, %602
-  %604 = fcmp contract ogt <8 x double> %603, %581
-  %605 = select contract <8 x i1> %604, <8 x double> %603, <8 x double> %581
-  %606 = getelementptr inbounds i8, ptr %504, i64 112
-  %607 = load double, ptr %606, align 8
-  %608 = insertelement <8 x double> poison, double %607, i64 0
-  %609 = shufflevector <8 x double> %608, <8 x double> poison, <8 x i32> zeroinitializer
-  %610 = fsub contract <8 x double> %586, %609
-  %611 = fcmp contract ogt <8 x double> %610, %581
-  %612 = select contract <8 x i1> %611, <8 x double> %610, <8 x double> %581
-  %613 = fmul contract <8 x double> %605, %605
-  %614 = fmul contract <8 x double> %612, %612
-  %615 = fadd contract <8 x double> %613, %614
-  br i1 %589, label %627, label %616
+603:
+  %604 = phi contract <8 x double> [ %600, %596 ], [ %602, %601 ]
+  %605 = getelementptr inbounds i8, ptr %508, i64 96
+  %606 = load double, ptr %605, align 8
+  %607 = insertelement <8 x double> poison, double %606, i64 0
+  %608 = shufflevector <8 x double> %607, <8 x double> poison, <8 x i32> zeroinitializer
+  %609 = fsub contract <8 x double> %604, %608
+  %610 = fcmp contract ogt <8 x double> %609, %587
+  %611 = select contract <8 x i1> %610, <8 x double> %609, <8 x double> %587
+  %612 = getelementptr inbounds i8, ptr %508, i64 112
+  %613 = load double, ptr %612, align 8
+  %614 = insertelement <8 x double> poison, double %613, i64 0
+  %615 = shufflevector <8 x double> %614, <8 x double> poison, <8 x i32> zeroinitializer
+  %616 = fsub contract <8 x double> %592, %615
+  %617 = fcmp contract ogt <8 x double> %616, %587
+  %618 = select contract <8 x i1> %617, <8 x double> %616, <8 x double> %587
+  %619 = fmul contract <8 x double> %611, %611
+  %620 = fmul contract <8 x double> %618, %618
+  %621 = fadd contract <8 x double> %619, %620
+  br i1 %595, label %633, label %622
 
-616:
-  %617 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %558)
-  %618 = getelementptr inbounds i8, ptr %504, i64 104
-  %619 = load double, ptr %618, align 8
-  %620 = insertelement <8 x double> poison, double %619, i64 0
-  %621 = shufflevector <8 x double> %620, <8 x double> poison, <8 x i32> zeroinitializer
-  %622 = fsub contract <8 x double> %617, %621
-  %623 = fcmp contract ogt <8 x double> %622, %581
-  %624 = select contract <8 x i1> %623, <8 x double> %622, <8 x double> %581
-  %625 = fmul contract <8 x double> %624, %624
-  %626 = fadd contract <8 x double> %615, %625
-  br label %627
-
-627:
-  %628 = phi <8 x double> [ %626, %616 ], [ %615, %597 ]
-  %629 = fmul contract <8 x double> %515, %515
-  %630 = fcmp contract olt <8 x double> %628, %629
-  %631 = bitcast <8 x i1> %630 to i8
-  %632 = icmp eq i8 %631, 0
-  br i1 %632, label %739, label %633
+622:
+  %623 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %564)
+  %624 = getelementptr inbounds i8, ptr %508, i64 104
+  %625 = load double, ptr %624, align 8
+  %626 = insertelement <8 x double> poison, double %625, i64 0
+  %627 = shufflevector <8 x double> %626, <8 x double> poison, <8 x i32> zeroinitializer
+  %628 = fsub contract <8 x double> %623, %627
+  %629 = fcmp contract ogt <8 x double> %628, %587
+  %630 = select contract <8 x i1> %629, <8 x double> %628, <8 x double> %587
+  %631 = fmul contract <8 x double> %630, %630
+  %632 = fadd contract <8 x double> %621, %631
+  br label %633
 
 633:
-  %634 = load i64, ptr %499, align 8
-  %635 = load i64, ptr %500, align 8
-  %636 = icmp slt i64 %634, %635
-  br i1 %636, label %637, label %639
-
-637:
-  %638 = getelementptr inbounds i8, ptr %504, i64 104
-  br label %644
+  %634 = phi <8 x double> [ %632, %622 ], [ %621, %603 ]
+  %635 = fmul contract <8 x double> %521, %521
+  %636 = fcmp contract olt <8 x double> %634, %635
+  %637 = bitcast <8 x i1> %636 to i8
+  %638 = icmp eq i8 %637, 0
+  br i1 %638, label %747, label %639
 
 639:
-  %640 = phi <8 x i64> [ %502, %633 ], [ %736, %732 ]
-  %641 = icmp eq <8 x i64> %640, zeroinitializer
-  %642 = bitcast <8 x i1> %641 to i8
-  %643 = icmp eq i8 %642, 0
-  br i1 %643, label %1248, label %739
+  %640 = load i64, ptr %503, align 8
+  %641 = load i64, ptr %504, align 8
+  %642 = icmp slt i64 %640, %641
+  br i1 %642, label %643, label %645
 
-644:
-  %645 = phi <8 x i64> [ %502, %637 ], [ %736, %732 ]
-  %646 = phi i64 [ %634, %637 ], [ %737, %732 ]
-  %647 = getelementptr inbounds %struct.Sphere.5, ptr %171, i64 %646
-  %648 = getelementptr inbounds i8, ptr %647, i64 24
-  %649 = load double, ptr %648, align 8
-  %650 = fadd contract double %509, %649
-  %651 = insertelement <8 x double> poison, double %650, i64 0
-  %652 = shufflevector <8 x double> %651, <8 x double> poison, <8 x i32> zeroinitializer
-  %653 = fadd contract <8 x double> %495, %652
-  %654 = load double, ptr %647, align 8
-  %655 = getelementptr inbounds i8, ptr %647, i64 8
-  %656 = load double, ptr %655, align 8
-  %657 = getelementptr inbounds i8, ptr %647, i64 16
-  %658 = load double, ptr %657, align 8
-  %659 = insertelement <8 x double> poison, double %654, i64 0
-  %660 = shufflevector <8 x double> %659, <8 x double> poison, <8 x i32> zeroinitializer
-  %661 = fmul contract <8 x double> %441, %660
-  %662 = fadd contract <8 x double> %440, %661
-  %663 = insertelement <8 x double> poison, double %656, i64 0
-  %664 = shufflevector <8 x double> %663, <8 x double> poison, <8 x i32> zeroinitializer
-  %665 = fmul contract <8 x double> %447, %664
-  %666 = fadd contract <8 x double> %662, %665
-  %667 = insertelement <8 x double> poison, double %658, i64 0
+643:
+  %644 = getelementptr inbounds i8, ptr %508, i64 104
+  br label %650
+
+645:
+  %646 = phi <8 x i64> [ %506, %639 ], [ %744, %740 ]
+  %647 = icmp eq <8 x i64> %646, zeroinitializer
+  %648 = bitcast <8 x i1> %647 to i8
+  %649 = icmp eq i8 %648, 0
+  br i1 %649, label %1265, label %747
+
+650:
+  %651 = phi <8 x i64> [ %506, %643 ], [ %744, %740 ]
+  %652 = phi i64 [ %640, %643 ], [ %745, %740 ]
+  %653 = getelementptr inbounds %struct.Sphere.5, ptr %171, i64 %652
+  %654 = getelementptr inbounds i8, ptr %653, i64 24
+  %655 = load double, ptr %654, align 8
+  %656 = fadd contract double %513, %655
+  %657 = insertelement <8 x double> poison, double %656, i64 0
+  %658 = shufflevector <8 x double> %657, <8 x double> poison, <8 x i32> zeroinitializer
+  %659 = fadd contract <8 x double> %499, %658
+  %660 = fcmp contract ogt <8 x double> %659, %428
+  %661 = select contract <8 x i1> %660, <8 x double> %659, <8 x double> %428
+  %662 = load double, ptr %653, align 8
+  %663 = getelementptr inbounds i8, ptr %653, i64 8
+  %664 = load double, ptr %663, align 8
+  %665 = getelementptr inbounds i8, ptr %653, i64 16
+  %666 = load double, ptr %665, align 8
+  %667 = insertelement <8 x double> poison, double %662, i64 0
   %668 = shufflevector <8 x double> %667, <8 x double> poison, <8 x i32> zeroinitializer
-  %669 = fmul contract <8 x double> %453, %668
-  %670 = fadd contract <8 x double> %666, %669
-  %671 = fmul contract <8 x double> %461, %660
-  %672 = fadd contract <8 x double> %459, %671
-  %673 = fmul contract <8 x double> %465, %664
-  %674 = fadd contract <8 x double> %672, %673
-  %675 = fmul contract <8 x double> %469, %668
-  %676 = fadd contract <8 x double> %674, %675
-  %677 = fmul contract <8 x double> %475, %660
-  %678 = fadd contract <8 x double> %473, %677
-  %679 = fmul contract <8 x double> %479, %664
-  %680 = fadd contract <8 x double> %678, %679
-  %681 = fmul contract <8 x double> %483, %668
+  %669 = fmul contract <8 x double> %445, %668
+  %670 = fadd contract <8 x double> %444, %669
+  %671 = insertelement <8 x double> poison, double %664, i64 0
+  %672 = shufflevector <8 x double> %671, <8 x double> poison, <8 x i32> zeroinitializer
+  %673 = fmul contract <8 x double> %451, %672
+  %674 = fadd contract <8 x double> %670, %673
+  %675 = insertelement <8 x double> poison, double %666, i64 0
+  %676 = shufflevector <8 x double> %675, <8 x double> poison, <8 x i32> zeroinitializer
+  %677 = fmul contract <8 x double> %457, %676
+  %678 = fadd contract <8 x double> %674, %677
+  %679 = fmul contract <8 x double> %465, %668
+  %680 = fadd contract <8 x double> %463, %679
+  %681 = fmul contract <8 x double> %469, %672
   %682 = fadd contract <8 x double> %680, %681
-  %683 = fmul contract <8 x double> %522, %670
-  %684 = fadd contract <8 x double> %519, %683
-  %685 = fmul contract <8 x double> %528, %676
-  %686 = fadd contract <8 x double> %685, %684
-  %687 = fmul contract <8 x double> %534, %682
-  %688 = fadd contract <8 x double> %687, %686
-  %689 = fmul contract <8 x double> %544, %670
-  %690 = fadd contract <8 x double> %540, %689
-  %691 = fmul contract <8 x double> %550, %676
-  %692 = fadd contract <8 x double> %691, %690
-  %693 = fmul contract <8 x double> %556, %682
+  %683 = fmul contract <8 x double> %473, %676
+  %684 = fadd contract <8 x double> %682, %683
+  %685 = fmul contract <8 x double> %479, %668
+  %686 = fadd contract <8 x double> %477, %685
+  %687 = fmul contract <8 x double> %483, %672
+  %688 = fadd contract <8 x double> %686, %687
+  %689 = fmul contract <8 x double> %487, %676
+  %690 = fadd contract <8 x double> %688, %689
+  %691 = fmul contract <8 x double> %528, %678
+  %692 = fadd contract <8 x double> %525, %691
+  %693 = fmul contract <8 x double> %534, %684
   %694 = fadd contract <8 x double> %693, %692
-  %695 = fmul contract <8 x double> %566, %670
-  %696 = fadd contract <8 x double> %562, %695
-  %697 = fmul contract <8 x double> %572, %676
-  %698 = fadd contract <8 x double> %697, %696
-  %699 = fmul contract <8 x double> %578, %682
+  %695 = fmul contract <8 x double> %540, %690
+  %696 = fadd contract <8 x double> %695, %694
+  %697 = fmul contract <8 x double> %550, %678
+  %698 = fadd contract <8 x double> %546, %697
+  %699 = fmul contract <8 x double> %556, %684
   %700 = fadd contract <8 x double> %699, %698
-  %701 = fmul contract <8 x double> %688, zeroinitializer
-  %702 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %700)
-  %703 = select contract i1 %584, <8 x double> %700, <8 x double> %702
-  br i1 %589, label %704, label %709
+  %701 = fmul contract <8 x double> %562, %690
+  %702 = fadd contract <8 x double> %701, %700
+  %703 = fmul contract <8 x double> %572, %678
+  %704 = fadd contract <8 x double> %568, %703
+  %705 = fmul contract <8 x double> %578, %684
+  %706 = fadd contract <8 x double> %705, %704
+  %707 = fmul contract <8 x double> %584, %690
+  %708 = fadd contract <8 x double> %707, %706
+  %709 = fmul contract <8 x double> %696, zeroinitializer
+  %710 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %708)
+  %711 = select contract i1 %590, <8 x double> %708, <8 x double> %710
+  br i1 %595, label %712, label %717
 
-704:
-  %705 = fmul contract <8 x double> %688, %688
-  %706 = fmul contract <8 x double> %694, %694
-  %707 = fadd contract <8 x double> %705, %706
-  %708 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %707)
-  br label %711
+712:
+  %713 = fmul contract <8 x double> %696, %696
+  %714 = fmul contract <8 x double> %702, %702
+  %715 = fadd contract <8 x double> %713, %714
+  %716 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %715)
+  br label %719
 
-709:
-  %710 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %688)
-  br label %711
+717:
+  %718 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %696)
+  br label %719
 
-711:
-  %712 = phi contract <8 x double> [ %708, %704 ], [ %710, %709 ]
-  %713 = fsub contract <8 x double> %712, %602
-  %714 = fcmp contract ogt <8 x double> %713, %701
-  %715 = select contract <8 x i1> %714, <8 x double> %713, <8 x double> %701
-  %716 = fsub contract <8 x double> %703, %609
-  %717 = fcmp contract ogt <8 x double> %716, %701
-  %718 = select contract <8 x i1> %717, <8 x double> %716, <8 x double> %701
-  %719 = fmul contract <8 x double> %715, %715
-  %720 = fmul contract <8 x double> %718, %718
-  %721 = fadd contract <8 x double> %720, %719
-  br i1 %589, label %732, label %722
+719:
+  %720 = phi contract <8 x double> [ %716, %712 ], [ %718, %717 ]
+  %721 = fsub contract <8 x double> %720, %608
+  %722 = fcmp contract ogt <8 x double> %721, %709
+  %723 = select contract <8 x i1> %722, <8 x double> %721, <8 x double> %709
+  %724 = fsub contract <8 x double> %711, %615
+  %725 = fcmp contract ogt <8 x double> %724, %709
+  %726 = select contract <8 x i1> %725, <8 x double> %724, <8 x double> %709
+  %727 = fmul contract <8 x double> %723, %723
+  %728 = fmul contract <8 x double> %726, %726
+  %729 = fadd contract <8 x double> %728, %727
+  br i1 %595, label %740, label %730
 
-722:
-  %723 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %694)
-  %724 = load double, ptr %638, align 8
-  %725 = insertelement <8 x double> poison, double %724, i64 0
-  %726 = shufflevector <8 x double> %725, <8 x double> poison, <8 x i32> zeroinitializer
-  %727 = fsub contract <8 x double> %723, %726
-  %728 = fcmp contract ogt <8 x double> %727, %701
-  %729 = select contract <8 x i1> %728, <8 x double> %727, <8 x double> %701
-  %730 = fmul contract <8 x double> %729, %729
-  %731 = fadd contract <8 x double> %721, %730
-  br label %732
+730:
+  %731 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %702)
+  %732 = load double, ptr %644, align 8
+  %733 = insertelement <8 x double> poison, double %732, i64 0
+  %734 = shufflevector <8 x double> %733, <8 x double> poison, <8 x i32> zeroinitializer
+  %735 = fsub contract <8 x double> %731, %734
+  %736 = fcmp contract ogt <8 x double> %735, %709
+  %737 = select contract <8 x i1> %736, <8 x double> %735, <8 x double> %709
+  %738 = fmul contract <8 x double> %737, %737
+  %739 = fadd contract <8 x double> %729, %738
+  br label %740
 
-732:
-  %733 = phi <8 x double> [ %731, %722 ], [ %721, %711 ]
-  %734 = fmul contract <8 x double> %653, %653
-  %735 = fcmp contract olt <8 x double> %733, %734
-  %736 = select <8 x i1> %735, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %645
-  %737 = add nsw i64 %646, 1
-  %738 = icmp eq i64 %737, %635
-  br i1 %738, label %639, label %644
-
-739:
-  %740 = phi <8 x i64> [ %640, %639 ], [ %502, %627 ], [ %502, %501 ]
-  %741 = add nuw nsw i64 %503, 1
-  %742 = icmp eq i64 %741, %166
-  br i1 %742, label %743, label %501
-
-743:
-  %744 = phi <8 x i64> [ %426, %425 ], [ %426, %432 ], [ %740, %739 ]
-  %745 = add nuw i64 %427, 1
-  %746 = icmp eq i64 %427, %46
-  br i1 %746, label %747, label %425
+740:
+  %741 = phi <8 x double> [ %739, %730 ], [ %729, %719 ]
+  %742 = fmul contract <8 x double> %661, %661
+  %743 = fcmp contract olt <8 x double> %741, %742
+  %744 = select <8 x i1> %743, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %651
+  %745 = add nsw i64 %652, 1
+  %746 = icmp eq i64 %745, %641
+  br i1 %746, label %645, label %650
 
 747:
-  %748 = phi <8 x i64> [ zeroinitializer, %205 ], [ %744, %743 ]
-  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %8)
-  br i1 %53, label %751, label %749
-
-749:
-  %750 = phi <8 x i64> [ %748, %747 ], [ %1245, %1243 ]
-  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %8)
-  br label %1248
+  %748 = phi <8 x i64> [ %646, %645 ], [ %506, %633 ], [ %506, %505 ]
+  %749 = add nuw nsw i64 %507, 1
+  %750 = icmp eq i64 %749, %166
+  br i1 %750, label %751, label %505
 
 751:
-  %752 = phi <8 x i64> [ %1245, %1243 ], [ %748, %747 ]
-  %753 = phi i64 [ %1244, %1243 ], [ 0, %747 ]
-  %754 = phi i64 [ %1246, %1243 ], [ 0, %747 ]
-  %755 = getelementptr inbounds %struct.LinkPair, ptr %172, i64 %754
-  %756 = load i64, ptr %755, align 8
-  %757 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %756
-  %758 = getelementptr inbounds i8, ptr %755, i64 8
-  %759 = load i64, ptr %758, align 8
-  %760 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %759
-  %761 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %756
-  %762 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %759
-  %763 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %754
-  %764 = load double, ptr %763, align 8
-  %765 = insertelement <8 x double> poison, double %764, i64 0
-  %766 = shufflevector <8 x double> %765, <8 x double> poison, <8 x i32> zeroinitializer
-  %767 = fmul contract <8 x double> %1265, %766
-  %768 = getelementptr inbounds [136 x double], ptr %23, i64 0, i64 %754
-  %769 = load double, ptr %768, align 8
-  %770 = getelementptr inbounds double, ptr %174, i64 %754
-  %771 = load double, ptr %770, align 8
-  %772 = fadd contract double %769, %771
-  %773 = insertelement <8 x double> poison, double %772, i64 0
-  %774 = shufflevector <8 x double> %773, <8 x double> poison, <8 x i32> zeroinitializer
-  %775 = fadd contract <8 x double> %767, %774
-  %776 = load double, ptr %760, align 8
-  %777 = getelementptr inbounds i8, ptr %760, i64 8
+  %752 = phi <8 x i64> [ %430, %429 ], [ %430, %436 ], [ %748, %747 ]
+  %753 = add nuw i64 %431, 1
+  %754 = icmp eq i64 %431, %46
+  br i1 %754, label %755, label %429
+
+755:
+  %756 = phi <8 x double> [ %209, %208 ], [ %428, %751 ]
+  %757 = phi <8 x i64> [ zeroinitializer, %208 ], [ %752, %751 ]
+  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %8)
+  br i1 %53, label %760, label %758
+
+758:
+  %759 = phi <8 x i64> [ %757, %755 ], [ %1262, %1260 ]
+  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %8)
+  br label %1265
+
+760:
+  %761 = phi <8 x i64> [ %1262, %1260 ], [ %757, %755 ]
+  %762 = phi i64 [ %1261, %1260 ], [ 0, %755 ]
+  %763 = phi i64 [ %1263, %1260 ], [ 0, %755 ]
+  %764 = getelementptr inbounds %struct.LinkPair, ptr %172, i64 %763
+  %765 = load i64, ptr %764, align 8
+  %766 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %765
+  %767 = getelementptr inbounds i8, ptr %764, i64 8
+  %768 = load i64, ptr %767, align 8
+  %769 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %768
+  %770 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %765
+  %771 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %768
+  %772 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %763
+  %773 = load double, ptr %772, align 8
+  %774 = insertelement <8 x double> poison, double %773, i64 0
+  %775 = shufflevector <8 x double> %774, <8 x double> poison, <8 x i32> zeroinitializer
+  %776 = fmul contract <8 x double> %1282, %775
+  %777 = getelementptr inbounds [136 x double], ptr %23, i64 0, i64 %763
   %778 = load double, ptr %777, align 8
-  %779 = getelementptr inbounds i8, ptr %760, i64 16
+  %779 = getelementptr inbounds double, ptr %174, i64 %763
   %780 = load double, ptr %779, align 8
-  %781 = getelementptr inbounds i8, ptr %762, i64 576
-  %782 = load <8 x double>, ptr %781, align 64
-  %783 = load <8 x double>, ptr %762, align 64
-  %784 = insertelement <8 x double> poison, double %776, i64 0
-  %785 = shufflevector <8 x double> %784, <8 x double> poison, <8 x i32> zeroinitializer
-  %786 = fmul contract <8 x double> %785, %783
-  %787 = fadd contract <8 x double> %782, %786
-  %788 = getelementptr inbounds i8, ptr %762, i64 64
-  %789 = load <8 x double>, ptr %788, align 64
-  %790 = insertelement <8 x double> poison, double %778, i64 0
-  %791 = shufflevector <8 x double> %790, <8 x double> poison, <8 x i32> zeroinitializer
-  %792 = fmul contract <8 x double> %791, %789
-  %793 = fadd contract <8 x double> %787, %792
-  %794 = getelementptr inbounds i8, ptr %762, i64 128
-  %795 = load <8 x double>, ptr %794, align 64
-  %796 = insertelement <8 x double> poison, double %780, i64 0
-  %797 = shufflevector <8 x double> %796, <8 x double> poison, <8 x i32> zeroinitializer
-  %798 = fmul contract <8 x double> %797, %795
-  %799 = fadd contract <8 x double> %793, %798
-  %800 = getelementptr inbounds i8, ptr %762, i64 640
-  %801 = load <8 x double>, ptr %800, align 64
-  %802 = getelementptr inbounds i8, ptr %762, i64 192
-  %803 = load <8 x double>, ptr %802, align 64
-  %804 = fmul contract <8 x double> %785, %803
-  %805 = fadd contract <8 x double> %801, %804
-  %806 = getelementptr inbounds i8, ptr %762, i64 256
-  %807 = load <8 x double>, ptr %806, align 64
-  %808 = fmul contract <8 x double> %791, %807
-  %809 = fadd contract <8 x double> %805, %808
-  %810 = getelementptr inbounds i8, ptr %762, i64 320
-  %811 = load <8 x double>, ptr %810, align 64
-  %812 = fmul contract <8 x double> %797, %811
-  %813 = fadd contract <8 x double> %809, %812
-  %814 = getelementptr inbounds i8, ptr %762, i64 704
-  %815 = load <8 x double>, ptr %814, align 64
-  %816 = getelementptr inbounds i8, ptr %762, i64 384
-  %817 = load <8 x double>, ptr %816, align 64
-  %818 = fmul contract <8 x double> %785, %817
-  %819 = fadd contract <8 x double> %815, %818
-  %820 = getelementptr inbounds i8, ptr %762, i64 448
-  %821 = load <8 x double>, ptr %820, align 64
-  %822 = fmul contract <8 x double> %791, %821
-  %823 = fadd contract <8 x double> %819, %822
-  %824 = getelementptr inbounds i8, ptr %762, i64 512
-  %825 = load <8 x double>, ptr %824, align 64
-  %826 = fmul contract <8 x double> %797, %825
-  %827 = fadd contract <8 x double> %823, %826
-  %828 = getelementptr inbounds i8, ptr %757, i64 24
-  %829 = load double, ptr %828, align 8
-  %830 = getelementptr inbounds i8, ptr %760, i64 24
-  %831 = load double, ptr %830, align 8
-  %832 = fadd contract double %829, %831
-  %833 = insertelement <8 x double> poison, double %832, i64 0
-  %834 = shufflevector <8 x double> %833, <8 x double> poison, <8 x i32> zeroinitializer
-  %835 = fadd contract <8 x double> %775, %834
-  %836 = load double, ptr %757, align 8
-  %837 = getelementptr inbounds i8, ptr %757, i64 8
+  %781 = fadd contract double %778, %780
+  %782 = insertelement <8 x double> poison, double %781, i64 0
+  %783 = shufflevector <8 x double> %782, <8 x double> poison, <8 x i32> zeroinitializer
+  %784 = fadd contract <8 x double> %776, %783
+  %785 = load double, ptr %769, align 8
+  %786 = getelementptr inbounds i8, ptr %769, i64 8
+  %787 = load double, ptr %786, align 8
+  %788 = getelementptr inbounds i8, ptr %769, i64 16
+  %789 = load double, ptr %788, align 8
+  %790 = getelementptr inbounds i8, ptr %771, i64 576
+  %791 = load <8 x double>, ptr %790, align 64
+  %792 = load <8 x double>, ptr %771, align 64
+  %793 = insertelement <8 x double> poison, double %785, i64 0
+  %794 = shufflevector <8 x double> %793, <8 x double> poison, <8 x i32> zeroinitializer
+  %795 = fmul contract <8 x double> %794, %792
+  %796 = fadd contract <8 x double> %791, %795
+  %797 = getelementptr inbounds i8, ptr %771, i64 64
+  %798 = load <8 x double>, ptr %797, align 64
+  %799 = insertelement <8 x double> poison, double %787, i64 0
+  %800 = shufflevector <8 x double> %799, <8 x double> poison, <8 x i32> zeroinitializer
+  %801 = fmul contract <8 x double> %800, %798
+  %802 = fadd contract <8 x double> %796, %801
+  %803 = getelementptr inbounds i8, ptr %771, i64 128
+  %804 = load <8 x double>, ptr %803, align 64
+  %805 = insertelement <8 x double> poison, double %789, i64 0
+  %806 = shufflevector <8 x double> %805, <8 x double> poison, <8 x i32> zeroinitializer
+  %807 = fmul contract <8 x double> %806, %804
+  %808 = fadd contract <8 x double> %802, %807
+  %809 = getelementptr inbounds i8, ptr %771, i64 640
+  %810 = load <8 x double>, ptr %809, align 64
+  %811 = getelementptr inbounds i8, ptr %771, i64 192
+  %812 = load <8 x double>, ptr %811, align 64
+  %813 = fmul contract <8 x double> %794, %812
+  %814 = fadd contract <8 x double> %810, %813
+  %815 = getelementptr inbounds i8, ptr %771, i64 256
+  %816 = load <8 x double>, ptr %815, align 64
+  %817 = fmul contract <8 x double> %800, %816
+  %818 = fadd contract <8 x double> %814, %817
+  %819 = getelementptr inbounds i8, ptr %771, i64 320
+  %820 = load <8 x double>, ptr %819, align 64
+  %821 = fmul contract <8 x double> %806, %820
+  %822 = fadd contract <8 x double> %818, %821
+  %823 = getelementptr inbounds i8, ptr %771, i64 704
+  %824 = load <8 x double>, ptr %823, align 64
+  %825 = getelementptr inbounds i8, ptr %771, i64 384
+  %826 = load <8 x double>, ptr %825, align 64
+  %827 = fmul contract <8 x double> %794, %826
+  %828 = fadd contract <8 x double> %824, %827
+  %829 = getelementptr inbounds i8, ptr %771, i64 448
+  %830 = load <8 x double>, ptr %829, align 64
+  %831 = fmul contract <8 x double> %800, %830
+  %832 = fadd contract <8 x double> %828, %831
+  %833 = getelementptr inbounds i8, ptr %771, i64 512
+  %834 = load <8 x double>, ptr %833, align 64
+  %835 = fmul contract <8 x double> %806, %834
+  %836 = fadd contract <8 x double> %832, %835
+  %837 = getelementptr inbounds i8, ptr %766, i64 24
   %838 = load double, ptr %837, align 8
-  %839 = getelementptr inbounds i8, ptr %757, i64 16
+  %839 = getelementptr inbounds i8, ptr %769, i64 24
   %840 = load double, ptr %839, align 8
-  %841 = getelementptr inbounds i8, ptr %761, i64 576
-  %842 = load <8 x double>, ptr %841, align 64
-  %843 = load <8 x double>, ptr %761, align 64
-  %844 = insertelement <8 x double> poison, double %836, i64 0
-  %845 = shufflevector <8 x double> %844, <8 x double> poison, <8 x i32> zeroinitializer
-  %846 = fmul contract <8 x double> %845, %843
-  %847 = fadd contract <8 x double> %842, %846
-  %848 = getelementptr inbounds i8, ptr %761, i64 64
-  %849 = load <8 x double>, ptr %848, align 64
-  %850 = insertelement <8 x double> poison, double %838, i64 0
-  %851 = shufflevector <8 x double> %850, <8 x double> poison, <8 x i32> zeroinitializer
-  %852 = fmul contract <8 x double> %851, %849
-  %853 = fadd contract <8 x double> %847, %852
-  %854 = getelementptr inbounds i8, ptr %761, i64 128
-  %855 = load <8 x double>, ptr %854, align 64
-  %856 = insertelement <8 x double> poison, double %840, i64 0
-  %857 = shufflevector <8 x double> %856, <8 x double> poison, <8 x i32> zeroinitializer
-  %858 = fmul contract <8 x double> %857, %855
-  %859 = fadd contract <8 x double> %853, %858
-  %860 = getelementptr inbounds i8, ptr %761, i64 640
-  %861 = load <8 x double>, ptr %860, align 64
-  %862 = getelementptr inbounds i8, ptr %761, i64 192
-  %863 = load <8 x double>, ptr %862, align 64
-  %864 = fmul contract <8 x double> %845, %863
-  %865 = fadd contract <8 x double> %861, %864
-  %866 = getelementptr inbounds i8, ptr %761, i64 256
-  %867 = load <8 x double>, ptr %866, align 64
-  %868 = fmul contract <8 x double> %851, %867
-  %869 = fadd contract <8 x double> %865, %868
-  %870 = getelementptr inbounds i8, ptr %761, i64 320
-  %871 = load <8 x double>, ptr %870, align 64
-  %872 = fmul contract <8 x double> %857, %871
-  %873 = fadd contract <8 x double> %869, %872
-  %874 = getelementptr inbounds i8, ptr %761, i64 704
-  %875 = load <8 x double>, ptr %874, align 64
-  %876 = getelementptr inbounds i8, ptr %761, i64 384
-  %877 = load <8 x double>, ptr %876, align 64
-  %878 = fmul contract <8 x double> %845, %877
-  %879 = fadd contract <8 x double> %875, %878
-  %880 = getelementptr inbounds i8, ptr %761, i64 448
-  %881 = load <8 x double>, ptr %880, align 64
-  %882 = fmul contract <8 x double> %851, %881
-  %883 = fadd contract <8 x double> %879, %882
-  %884 = getelementptr inbounds i8, ptr %761, i64 512
-  %885 = load <8 x double>, ptr %884, align 64
-  %886 = fmul contract <8 x double> %857, %885
-  %887 = fadd contract <8 x double> %883, %886
-  %888 = fsub contract <8 x double> %859, %799
-  %889 = fsub contract <8 x double> %873, %813
-  %890 = fsub contract <8 x double> %887, %827
-  %891 = fmul contract <8 x double> %888, %888
-  %892 = fmul contract <8 x double> %889, %889
-  %893 = fadd contract <8 x double> %891, %892
-  %894 = fmul contract <8 x double> %890, %890
-  %895 = fadd contract <8 x double> %893, %894
-  %896 = fmul contract <8 x double> %835, %835
-  %897 = fcmp contract olt <8 x double> %895, %896
-  %898 = bitcast <8 x i1> %897 to i8
-  %899 = icmp eq i8 %898, 0
-  br i1 %899, label %1243, label %900
+  %841 = fadd contract double %838, %840
+  %842 = insertelement <8 x double> poison, double %841, i64 0
+  %843 = shufflevector <8 x double> %842, <8 x double> poison, <8 x i32> zeroinitializer
+  %844 = fadd contract <8 x double> %784, %843
+  %845 = fcmp contract ogt <8 x double> %844, %756
+  %846 = select contract <8 x i1> %845, <8 x double> %844, <8 x double> %756
+  %847 = load double, ptr %766, align 8
+  %848 = getelementptr inbounds i8, ptr %766, i64 8
+  %849 = load double, ptr %848, align 8
+  %850 = getelementptr inbounds i8, ptr %766, i64 16
+  %851 = load double, ptr %850, align 8
+  %852 = getelementptr inbounds i8, ptr %770, i64 576
+  %853 = load <8 x double>, ptr %852, align 64
+  %854 = load <8 x double>, ptr %770, align 64
+  %855 = insertelement <8 x double> poison, double %847, i64 0
+  %856 = shufflevector <8 x double> %855, <8 x double> poison, <8 x i32> zeroinitializer
+  %857 = fmul contract <8 x double> %856, %854
+  %858 = fadd contract <8 x double> %853, %857
+  %859 = getelementptr inbounds i8, ptr %770, i64 64
+  %860 = load <8 x double>, ptr %859, align 64
+  %861 = insertelement <8 x double> poison, double %849, i64 0
+  %862 = shufflevector <8 x double> %861, <8 x double> poison, <8 x i32> zeroinitializer
+  %863 = fmul contract <8 x double> %862, %860
+  %864 = fadd contract <8 x double> %858, %863
+  %865 = getelementptr inbounds i8, ptr %770, i64 128
+  %866 = load <8 x double>, ptr %865, align 64
+  %867 = insertelement <8 x double> poison, double %851, i64 0
+  %868 = shufflevector <8 x double> %867, <8 x double> poison, <8 x i32> zeroinitializer
+  %869 = fmul contract <8 x double> %868, %866
+  %870 = fadd contract <8 x double> %864, %869
+  %871 = getelementptr inbounds i8, ptr %770, i64 640
+  %872 = load <8 x double>, ptr %871, align 64
+  %873 = getelementptr inbounds i8, ptr %770, i64 192
+  %874 = load <8 x double>, ptr %873, align 64
+  %875 = fmul contract <8 x double> %856, %874
+  %876 = fadd contract <8 x double> %872, %875
+  %877 = getelementptr inbounds i8, ptr %770, i64 256
+  %878 = load <8 x double>, ptr %877, align 64
+  %879 = fmul contract <8 x double> %862, %878
+  %880 = fadd contract <8 x double> %876, %879
+  %881 = getelementptr inbounds i8, ptr %770, i64 320
+  %882 = load <8 x double>, ptr %881, align 64
+  %883 = fmul contract <8 x double> %868, %882
+  %884 = fadd contract <8 x double> %880, %883
+  %885 = getelementptr inbounds i8, ptr %770, i64 704
+  %886 = load <8 x double>, ptr %885, align 64
+  %887 = getelementptr inbounds i8, ptr %770, i64 384
+  %888 = load <8 x double>, ptr %887, align 64
+  %889 = fmul contract <8 x double> %856, %888
+  %890 = fadd contract <8 x double> %886, %889
+  %891 = getelementptr inbounds i8, ptr %770, i64 448
+  %892 = load <8 x double>, ptr %891, align 64
+  %893 = fmul contract <8 x double> %862, %892
+  %894 = fadd contract <8 x double> %890, %893
+  %895 = getelementptr inbounds i8, ptr %770, i64 512
+  %896 = load <8 x double>, ptr %895, align 64
+  %897 = fmul contract <8 x double> %868, %896
+  %898 = fadd contract <8 x double> %894, %897
+  %899 = fsub contract <8 x double> %870, %808
+  %900 = fsub contract <8 x double> %884, %822
+  %901 = fsub contract <8 x double> %898, %836
+  %902 = fmul contract <8 x double> %899, %899
+  %903 = fmul contract <8 x double> %900, %900
+  %904 = fadd contract <8 x double> %902, %903
+  %905 = fmul contract <8 x double> %901, %901
+  %906 = fadd contract <8 x double> %904, %905
+  %907 = fmul contract <8 x double> %846, %846
+  %908 = fcmp contract olt <8 x double> %906, %907
+  %909 = bitcast <8 x i1> %908 to i8
+  %910 = icmp eq i8 %909, 0
+  br i1 %910, label %1260, label %911
 
-900:
+911:
   call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %9)
-  store i64 %756, ptr %9, align 16
-  store i64 %759, ptr %35, align 8
-  br label %907
+  store i64 %765, ptr %9, align 16
+  store i64 %768, ptr %35, align 8
+  br label %918
 
-901:
-  %902 = getelementptr inbounds i8, ptr %755, i64 16
-  %903 = load i64, ptr %902, align 8
-  %904 = getelementptr inbounds i8, ptr %755, i64 24
-  %905 = load i64, ptr %904, align 8
-  %906 = icmp slt i64 %903, %905
-  br i1 %906, label %990, label %988
+912:
+  %913 = getelementptr inbounds i8, ptr %764, i64 16
+  %914 = load i64, ptr %913, align 8
+  %915 = getelementptr inbounds i8, ptr %764, i64 24
+  %916 = load i64, ptr %915, align 8
+  %917 = icmp slt i64 %914, %916
+  br i1 %917, label %1001, label %999
 
-907:
-  %908 = phi i64 [ %753, %900 ], [ %985, %984 ]
-  %909 = phi i64 [ 0, %900 ], [ %986, %984 ]
-  %910 = getelementptr inbounds i8, ptr %9, i64 %909
-  %911 = load i64, ptr %910, align 8
-  %912 = shl nuw i64 1, %911
-  %913 = and i64 %912, %908
-  %914 = icmp eq i64 %913, 0
-  br i1 %914, label %915, label %984
+918:
+  %919 = phi i64 [ %762, %911 ], [ %996, %995 ]
+  %920 = phi i64 [ 0, %911 ], [ %997, %995 ]
+  %921 = getelementptr inbounds i8, ptr %9, i64 %920
+  %922 = load i64, ptr %921, align 8
+  %923 = shl nuw i64 1, %922
+  %924 = and i64 %923, %919
+  %925 = icmp eq i64 %924, 0
+  br i1 %925, label %926, label %995
 
-915:
-  %916 = or i64 %912, %908
-  %917 = getelementptr inbounds i64, ptr %175, i64 %911
-  %918 = load i64, ptr %917, align 8
-  %919 = getelementptr i8, ptr %917, i64 8
-  %920 = load i64, ptr %919, align 8
-  %921 = icmp slt i64 %918, %920
-  br i1 %921, label %922, label %984
+926:
+  %927 = or i64 %923, %919
+  %928 = getelementptr inbounds i64, ptr %175, i64 %922
+  %929 = load i64, ptr %928, align 8
+  %930 = getelementptr i8, ptr %928, i64 8
+  %931 = load i64, ptr %930, align 8
+  %932 = icmp slt i64 %929, %931
+  br i1 %932, label %933, label %995
 
-922:
-  %923 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %911
-  %924 = getelementptr inbounds i8, ptr %923, i64 576
-  %925 = load <8 x double>, ptr %924, align 64
-  %926 = load <8 x double>, ptr %923, align 64
-  %927 = getelementptr inbounds i8, ptr %923, i64 64
-  %928 = load <8 x double>, ptr %927, align 64
-  %929 = getelementptr inbounds i8, ptr %923, i64 128
-  %930 = load <8 x double>, ptr %929, align 64
-  %931 = getelementptr inbounds i8, ptr %923, i64 640
-  %932 = load <8 x double>, ptr %931, align 64
-  %933 = getelementptr inbounds i8, ptr %923, i64 192
-  %934 = load <8 x double>, ptr %933, align 64
-  %935 = getelementptr inbounds i8, ptr %923, i64 256
+933:
+  %934 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %922
+  %935 = getelementptr inbounds i8, ptr %934, i64 576
   %936 = load <8 x double>, ptr %935, align 64
-  %937 = getelementptr inbounds i8, ptr %923, i64 320
-  %938 = load <8 x double>, ptr %937, align 64
-  %939 = getelementptr inbounds i8, ptr %923, i64 704
-  %940 = load <8 x double>, ptr %939, align 64
-  %941 = getelementptr inbounds i8, ptr %923, i64 384
-  %942 = load <8 x double>, ptr %941, align 64
-  %943 = getelementptr inbounds i8, ptr %923, i64 448
-  %944 = load <8 x double>, ptr %943, align 64
-  %945 = getelementptr inbounds i8, ptr %923, i64 512
-  %946 = load <8 x double>, ptr %945, align 64
-  br label %947
+  %937 = load <8 x double>, ptr %934, align 64
+  %938 = getelementptr inbounds i8, ptr %934, i64 64
+  %939 = load <8 x double>, ptr %938, align 64
+  %940 = getelementptr inbounds i8, ptr %934, i64 128
+  %941 = load <8 x double>, ptr %940, align 64
+  %942 = getelementptr inbounds i8, ptr %934, i64 640
+  %943 = load <8 x double>, ptr %942, align 64
+  %944 = getelementptr inbounds i8, ptr %934, i64 192
+  %945 = load <8 x double>, ptr %944, align 64
+  %946 = getelementptr inbounds i8, ptr %934, i64 256
+  %947 = load <8 x double>, ptr %946, align 64
+  %948 = getelementptr inbounds i8, ptr %934, i64 320
+  %949 = load <8 x double>, ptr %948, align 64
+  %950 = getelementptr inbounds i8, ptr %934, i64 704
+  %951 = load <8 x double>, ptr %950, align 64
+  %952 = getelementptr inbounds i8, ptr %934, i64 384
+  %953 = load <8 x double>, ptr %952, align 64
+  %954 = getelementptr inbounds i8, ptr %934, i64 448
+  %955 = load <8 x double>, ptr %954, align 64
+  %956 = getelementptr inbounds i8, ptr %934, i64 512
+  %957 = load <8 x double>, ptr %956, align 64
+  br label %958
 
-947:
-  %948 = phi i64 [ %918, %922 ], [ %982, %947 ]
-  %949 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %948
-  %950 = load double, ptr %949, align 8
-  %951 = getelementptr inbounds i8, ptr %949, i64 8
-  %952 = load double, ptr %951, align 8
-  %953 = getelementptr inbounds i8, ptr %949, i64 16
-  %954 = load double, ptr %953, align 8
-  %955 = insertelement <8 x double> poison, double %950, i64 0
-  %956 = shufflevector <8 x double> %955, <8 x double> poison, <8 x i32> zeroinitializer
-  %957 = fmul contract <8 x double> %926, %956
-  %958 = fadd contract <8 x double> %925, %957
-  %959 = insertelement <8 x double> poison, double %952, i64 0
-  %960 = shufflevector <8 x double> %959, <8 x double> poison, <8 x i32> zeroinitializer
-  %961 = fmul contract <8 x double> %928, %960
-  %962 = fadd contract <8 x double> %958, %961
-  %963 = insertelement <8 x double> poison, double %954, i64 0
-  %964 = shufflevector <8 x double> %963, <8 x double> poison, <8 x i32> zeroinitializer
-  %965 = fmul contract <8 x double> %930, %964
-  %966 = fadd contract <8 x double> %962, %965
-  %967 = fmul contract <8 x double> %934, %956
-  %968 = fadd contract <8 x double> %932, %967
-  %969 = fmul contract <8 x double> %936, %960
-  %970 = fadd contract <8 x double> %968, %969
-  %971 = fmul contract <8 x double> %938, %964
-  %972 = fadd contract <8 x double> %970, %971
-  %973 = fmul contract <8 x double> %942, %956
-  %974 = fadd contract <8 x double> %940, %973
-  %975 = fmul contract <8 x double> %944, %960
-  %976 = fadd contract <8 x double> %974, %975
-  %977 = fmul contract <8 x double> %946, %964
-  %978 = fadd contract <8 x double> %976, %977
-  %979 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %948
-  store <8 x double> %966, ptr %979, align 64
-  %980 = getelementptr inbounds i8, ptr %979, i64 64
-  store <8 x double> %972, ptr %980, align 64
-  %981 = getelementptr inbounds i8, ptr %979, i64 128
-  store <8 x double> %978, ptr %981, align 64
-  %982 = add nsw i64 %948, 1
-  %983 = icmp eq i64 %982, %920
-  br i1 %983, label %984, label %947
+958:
+  %959 = phi i64 [ %929, %933 ], [ %993, %958 ]
+  %960 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %959
+  %961 = load double, ptr %960, align 8
+  %962 = getelementptr inbounds i8, ptr %960, i64 8
+  %963 = load double, ptr %962, align 8
+  %964 = getelementptr inbounds i8, ptr %960, i64 16
+  %965 = load double, ptr %964, align 8
+  %966 = insertelement <8 x double> poison, double %961, i64 0
+  %967 = shufflevector <8 x double> %966, <8 x double> poison, <8 x i32> zeroinitializer
+  %968 = fmul contract <8 x double> %937, %967
+  %969 = fadd contract <8 x double> %936, %968
+  %970 = insertelement <8 x double> poison, double %963, i64 0
+  %971 = shufflevector <8 x double> %970, <8 x double> poison, <8 x i32> zeroinitializer
+  %972 = fmul contract <8 x double> %939, %971
+  %973 = fadd contract <8 x double> %969, %972
+  %974 = insertelement <8 x double> poison, double %965, i64 0
+  %975 = shufflevector <8 x double> %974, <8 x double> poison, <8 x i32> zeroinitializer
+  %976 = fmul contract <8 x double> %941, %975
+  %977 = fadd contract <8 x double> %973, %976
+  %978 = fmul contract <8 x double> %945, %967
+  %979 = fadd contract <8 x double> %943, %978
+  %980 = fmul contract <8 x double> %947, %971
+  %981 = fadd contract <8 x double> %979, %980
+  %982 = fmul contract <8 x double> %949, %975
+  %983 = fadd contract <8 x double> %981, %982
+  %984 = fmul contract <8 x double> %953, %967
+  %985 = fadd contract <8 x double> %951, %984
+  %986 = fmul contract <8 x double> %955, %971
+  %987 = fadd contract <8 x double> %985, %986
+  %988 = fmul contract <8 x double> %957, %975
+  %989 = fadd contract <8 x double> %987, %988
+  %990 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %959
+  store <8 x double> %977, ptr %990, align 64
+  %991 = getelementptr inbounds i8, ptr %990, i64 64
+  store <8 x double> %983, ptr %991, align 64
+  %992 = getelementptr inbounds i8, ptr %990, i64 128
+  store <8 x double> %989, ptr %992, align 64
+  %993 = add nsw i64 %959, 1
+  %994 = icmp eq i64 %993, %931
+  br i1 %994, label %995, label %958
 
-984:
-  %985 = phi i64 [ %908, %907 ], [ %916, %915 ], [ %916, %947 ]
-  %986 = add nuw nsw i64 %909, 8
-  %987 = icmp eq i64 %986, 16
-  br i1 %987, label %901, label %907
+995:
+  %996 = phi i64 [ %919, %918 ], [ %927, %926 ], [ %927, %958 ]
+  %997 = add nuw nsw i64 %920, 8
+  %998 = icmp eq i64 %997, 16
+  br i1 %998, label %912, label %918
 
-988:
-  %989 = phi <8 x i64> [ %752, %901 ], [ %1240, %1237 ]
+999:
+  %1000 = phi <8 x i64> [ %761, %912 ], [ %1257, %1254 ]
   call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %9)
-  br label %1243
+  br label %1260
 
-990:
-  %991 = phi <8 x i64> [ %1240, %1237 ], [ %752, %901 ]
-  %992 = phi i64 [ %1241, %1237 ], [ %903, %901 ]
-  %993 = phi i1 [ %1238, %1237 ], [ false, %901 ]
-  %994 = phi i64 [ %1239, %1237 ], [ -1, %901 ]
-  %995 = getelementptr inbounds %struct.PartPair, ptr %177, i64 %992
-  %996 = load i64, ptr %995, align 8
-  %997 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %996
-  %998 = getelementptr inbounds i8, ptr %995, i64 8
-  %999 = load i64, ptr %998, align 8
-  %1000 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %999
-  %1001 = icmp eq i64 %996, %994
-  br i1 %1001, label %1027, label %1002
+1001:
+  %1002 = phi <8 x i64> [ %1257, %1254 ], [ %761, %912 ]
+  %1003 = phi i64 [ %1258, %1254 ], [ %914, %912 ]
+  %1004 = phi i1 [ %1255, %1254 ], [ false, %912 ]
+  %1005 = phi i64 [ %1256, %1254 ], [ -1, %912 ]
+  %1006 = getelementptr inbounds %struct.PartPair, ptr %177, i64 %1003
+  %1007 = load i64, ptr %1006, align 8
+  %1008 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %1007
+  %1009 = getelementptr inbounds i8, ptr %1006, i64 8
+  %1010 = load i64, ptr %1009, align 8
+  %1011 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %1010
+  %1012 = icmp eq i64 %1007, %1005
+  br i1 %1012, label %1040, label %1013
 
-1002:
-  %1003 = getelementptr inbounds i8, ptr %997, i64 56
-  %1004 = load double, ptr %1003, align 8
-  %1005 = fadd contract double %831, %1004
-  %1006 = insertelement <8 x double> poison, double %1005, i64 0
-  %1007 = shufflevector <8 x double> %1006, <8 x double> poison, <8 x i32> zeroinitializer
-  %1008 = fadd contract <8 x double> %775, %1007
-  %1009 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %996
-  %1010 = load <8 x double>, ptr %1009, align 64
-  %1011 = fsub contract <8 x double> %1010, %799
-  %1012 = getelementptr inbounds i8, ptr %1009, i64 64
-  %1013 = load <8 x double>, ptr %1012, align 64
-  %1014 = fsub contract <8 x double> %1013, %813
-  %1015 = getelementptr inbounds i8, ptr %1009, i64 128
-  %1016 = load <8 x double>, ptr %1015, align 64
-  %1017 = fsub contract <8 x double> %1016, %827
-  %1018 = fmul contract <8 x double> %1011, %1011
-  %1019 = fmul contract <8 x double> %1014, %1014
-  %1020 = fadd contract <8 x double> %1018, %1019
-  %1021 = fmul contract <8 x double> %1017, %1017
-  %1022 = fadd contract <8 x double> %1020, %1021
-  %1023 = fmul contract <8 x double> %1008, %1008
-  %1024 = fcmp contract olt <8 x double> %1022, %1023
-  %1025 = bitcast <8 x i1> %1024 to i8
-  %1026 = icmp eq i8 %1025, 0
-  br i1 %1026, label %1237, label %1037
+1013:
+  %1014 = getelementptr inbounds i8, ptr %1008, i64 56
+  %1015 = load double, ptr %1014, align 8
+  %1016 = fadd contract double %840, %1015
+  %1017 = insertelement <8 x double> poison, double %1016, i64 0
+  %1018 = shufflevector <8 x double> %1017, <8 x double> poison, <8 x i32> zeroinitializer
+  %1019 = fadd contract <8 x double> %784, %1018
+  %1020 = fcmp contract ogt <8 x double> %1019, %756
+  %1021 = select contract <8 x i1> %1020, <8 x double> %1019, <8 x double> %756
+  %1022 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1007
+  %1023 = load <8 x double>, ptr %1022, align 64
+  %1024 = fsub contract <8 x double> %1023, %808
+  %1025 = getelementptr inbounds i8, ptr %1022, i64 64
+  %1026 = load <8 x double>, ptr %1025, align 64
+  %1027 = fsub contract <8 x double> %1026, %822
+  %1028 = getelementptr inbounds i8, ptr %1022, i64 128
+  %1029 = load <8 x double>, ptr %1028, align 64
+  %1030 = fsub contract <8 x double> %1029, %836
+  %1031 = fmul contract <8 x double> %1024, %1024
+  %1032 = fmul contract <8 x double> %1027, %1027
+  %1033 = fadd contract <8 x double> %1031, %1032
+  %1034 = fmul contract <8 x double> %1030, %1030
+  %1035 = fadd contract <8 x double> %1033, %1034
+  %1036 = fmul contract <8 x double> %1021, %1021
+  %1037 = fcmp contract olt <8 x double> %1035, %1036
+  %1038 = bitcast <8 x i1> %1037 to i8
+  %1039 = icmp eq i8 %1038, 0
+  br i1 %1039, label %1254, label %1050
 
-1027:
-  br i1 %993, label %1028, label %1237
+1040:
+  br i1 %1004, label %1041, label %1254
 
-1028:
-  %1029 = getelementptr inbounds i8, ptr %997, i64 56
-  %1030 = load double, ptr %1029, align 8
-  %1031 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %994
-  %1032 = load <8 x double>, ptr %1031, align 64
-  %1033 = getelementptr inbounds i8, ptr %1031, i64 64
-  %1034 = load <8 x double>, ptr %1033, align 64
-  %1035 = getelementptr inbounds i8, ptr %1031, i64 128
-  %1036 = load <8 x double>, ptr %1035, align 64
-  br label %1037
+1041:
+  %1042 = getelementptr inbounds i8, ptr %1008, i64 56
+  %1043 = load double, ptr %1042, align 8
+  %1044 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1005
+  %1045 = load <8 x double>, ptr %1044, align 64
+  %1046 = getelementptr inbounds i8, ptr %1044, i64 64
+  %1047 = load <8 x double>, ptr %1046, align 64
+  %1048 = getelementptr inbounds i8, ptr %1044, i64 128
+  %1049 = load <8 x double>, ptr %1048, align 64
+  br label %1050
 
-1037:
-  %1038 = phi <8 x double> [ %1016, %1002 ], [ %1036, %1028 ]
-  %1039 = phi <8 x double> [ %1013, %1002 ], [ %1034, %1028 ]
-  %1040 = phi <8 x double> [ %1010, %1002 ], [ %1032, %1028 ]
-  %1041 = phi double [ %1004, %1002 ], [ %1030, %1028 ]
-  %1042 = phi i64 [ %996, %1002 ], [ %994, %1028 ]
-  %1043 = getelementptr inbounds i8, ptr %1000, i64 56
-  %1044 = load double, ptr %1043, align 8
-  %1045 = fadd contract double %1041, %1044
-  %1046 = insertelement <8 x double> poison, double %1045, i64 0
-  %1047 = shufflevector <8 x double> %1046, <8 x double> poison, <8 x i32> zeroinitializer
-  %1048 = fadd contract <8 x double> %775, %1047
-  %1049 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %999
-  %1050 = load <8 x double>, ptr %1049, align 64
-  %1051 = fsub contract <8 x double> %1040, %1050
-  %1052 = getelementptr inbounds i8, ptr %1049, i64 64
-  %1053 = load <8 x double>, ptr %1052, align 64
-  %1054 = fsub contract <8 x double> %1039, %1053
-  %1055 = getelementptr inbounds i8, ptr %1049, i64 128
-  %1056 = load <8 x double>, ptr %1055, align 64
-  %1057 = fsub contract <8 x double> %1038, %1056
-  %1058 = fmul contract <8 x double> %1051, %1051
-  %1059 = fmul contract <8 x double> %1054, %1054
-  %1060 = fadd contract <8 x double> %1058, %1059
-  %1061 = fmul contract <8 x double> %1057, %1057
-  %1062 = fadd contract <8 x double> %1060, %1061
-  %1063 = fmul contract <8 x double> %1048, %1048
-  %1064 = fcmp contract olt <8 x double> %1062, %1063
-  %1065 = bitcast <8 x i1> %1064 to i8
-  %1066 = icmp eq i8 %1065, 0
-  br i1 %1066, label %1237, label %1067
+1050:
+  %1051 = phi <8 x double> [ %1029, %1013 ], [ %1049, %1041 ]
+  %1052 = phi <8 x double> [ %1026, %1013 ], [ %1047, %1041 ]
+  %1053 = phi <8 x double> [ %1023, %1013 ], [ %1045, %1041 ]
+  %1054 = phi double [ %1015, %1013 ], [ %1043, %1041 ]
+  %1055 = phi i64 [ %1007, %1013 ], [ %1005, %1041 ]
+  %1056 = getelementptr inbounds i8, ptr %1011, i64 56
+  %1057 = load double, ptr %1056, align 8
+  %1058 = fadd contract double %1054, %1057
+  %1059 = insertelement <8 x double> poison, double %1058, i64 0
+  %1060 = shufflevector <8 x double> %1059, <8 x double> poison, <8 x i32> zeroinitializer
+  %1061 = fadd contract <8 x double> %784, %1060
+  %1062 = fcmp contract ogt <8 x double> %1061, %756
+  %1063 = select contract <8 x i1> %1062, <8 x double> %1061, <8 x double> %756
+  %1064 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1010
+  %1065 = load <8 x double>, ptr %1064, align 64
+  %1066 = fsub contract <8 x double> %1053, %1065
+  %1067 = getelementptr inbounds i8, ptr %1064, i64 64
+  %1068 = load <8 x double>, ptr %1067, align 64
+  %1069 = fsub contract <8 x double> %1052, %1068
+  %1070 = getelementptr inbounds i8, ptr %1064, i64 128
+  %1071 = load <8 x double>, ptr %1070, align 64
+  %1072 = fsub contract <8 x double> %1051, %1071
+  %1073 = fmul contract <8 x double> %1066, %1066
+  %1074 = fmul contract <8 x double> %1069, %1069
+  %1075 = fadd contract <8 x double> %1073, %1074
+  %1076 = fmul contract <8 x double> %1072, %1072
+  %1077 = fadd contract <8 x double> %1075, %1076
+  %1078 = fmul contract <8 x double> %1063, %1063
+  %1079 = fcmp contract olt <8 x double> %1077, %1078
+  %1080 = bitcast <8 x i1> %1079 to i8
+  %1081 = icmp eq i8 %1080, 0
+  br i1 %1081, label %1254, label %1082
 
-1067:
-  %1068 = getelementptr inbounds i8, ptr %997, i64 48
-  %1069 = load double, ptr %1068, align 8
-  %1070 = getelementptr inbounds i8, ptr %1000, i64 48
-  %1071 = load double, ptr %1070, align 8
-  %1072 = fadd contract double %1069, %1071
-  %1073 = insertelement <8 x double> poison, double %1072, i64 0
-  %1074 = shufflevector <8 x double> %1073, <8 x double> poison, <8 x i32> zeroinitializer
-  %1075 = fadd contract <8 x double> %775, %1074
-  %1076 = getelementptr inbounds i8, ptr %997, i64 24
-  %1077 = load double, ptr %1076, align 8
-  %1078 = fmul contract double %1077, %1077
-  %1079 = getelementptr inbounds i8, ptr %997, i64 32
-  %1080 = load double, ptr %1079, align 8
-  %1081 = fmul contract double %1080, %1080
-  %1082 = fadd contract double %1078, %1081
-  %1083 = getelementptr inbounds i8, ptr %997, i64 40
+1082:
+  %1083 = getelementptr inbounds i8, ptr %1008, i64 48
   %1084 = load double, ptr %1083, align 8
-  %1085 = fmul contract double %1084, %1084
-  %1086 = fadd contract double %1082, %1085
-  %1087 = getelementptr inbounds i8, ptr %1000, i64 24
-  %1088 = load double, ptr %1087, align 8
-  %1089 = fmul contract double %1088, %1088
-  %1090 = getelementptr inbounds i8, ptr %1000, i64 32
-  %1091 = load double, ptr %1090, align 8
-  %1092 = fmul contract double %1091, %1091
-  %1093 = fadd contract double %1089, %1092
-  %1094 = getelementptr inbounds i8, ptr %1000, i64 40
-  %1095 = load double, ptr %1094, align 8
-  %1096 = fmul contract double %1095, %1095
-  %1097 = fadd contract double %1093, %1096
-  %1098 = fcmp contract oeq double %1086, 0.000000e+00
-  %1099 = fcmp contract oeq double %1097, 0.000000e+00
-  %1100 = select i1 %1098, i1 %1099, i1 false
-  br i1 %1100, label %1232, label %1101
+  %1085 = getelementptr inbounds i8, ptr %1011, i64 48
+  %1086 = load double, ptr %1085, align 8
+  %1087 = fadd contract double %1084, %1086
+  %1088 = insertelement <8 x double> poison, double %1087, i64 0
+  %1089 = shufflevector <8 x double> %1088, <8 x double> poison, <8 x i32> zeroinitializer
+  %1090 = fadd contract <8 x double> %784, %1089
+  %1091 = fcmp contract ogt <8 x double> %1090, %756
+  %1092 = select contract <8 x i1> %1091, <8 x double> %1090, <8 x double> %756
+  %1093 = getelementptr inbounds i8, ptr %1008, i64 24
+  %1094 = load double, ptr %1093, align 8
+  %1095 = fmul contract double %1094, %1094
+  %1096 = getelementptr inbounds i8, ptr %1008, i64 32
+  %1097 = load double, ptr %1096, align 8
+  %1098 = fmul contract double %1097, %1097
+  %1099 = fadd contract double %1095, %1098
+  %1100 = getelementptr inbounds i8, ptr %1008, i64 40
+  %1101 = load double, ptr %1100, align 8
+  %1102 = fmul contract double %1101, %1101
+  %1103 = fadd contract double %1099, %1102
+  %1104 = getelementptr inbounds i8, ptr %1011, i64 24
+  %1105 = load double, ptr %1104, align 8
+  %1106 = fmul contract double %1105, %1105
+  %1107 = getelementptr inbounds i8, ptr %1011, i64 32
+  %1108 = load double, ptr %1107, align 8
+  %1109 = fmul contract double %1108, %1108
+  %1110 = fadd contract double %1106, %1109
+  %1111 = getelementptr inbounds i8, ptr %1011, i64 40
+  %1112 = load double, ptr %1111, align 8
+  %1113 = fmul contract double %1112, %1112
+  %1114 = fadd contract double %1110, %1113
+  %1115 = fcmp contract oeq double %1103, 0.000000e+00
+  %1116 = fcmp contract oeq double %1114, 0.000000e+00
+  %1117 = select i1 %1115, i1 %1116, i1 false
+  br i1 %1117, label %1249, label %1118
 
-1101:
-  %1102 = fmul contract <8 x double> %1040, zeroinitializer
-  %1103 = fadd contract <8 x double> %1102, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %1104 = insertelement <8 x double> poison, double %1077, i64 0
-  %1105 = shufflevector <8 x double> %1104, <8 x double> poison, <8 x i32> zeroinitializer
-  %1106 = fmul contract <8 x double> %843, %1105
-  %1107 = insertelement <8 x double> poison, double %1080, i64 0
-  %1108 = shufflevector <8 x double> %1107, <8 x double> poison, <8 x i32> zeroinitializer
-  %1109 = fmul contract <8 x double> %849, %1108
-  %1110 = fadd contract <8 x double> %1106, %1109
-  %1111 = insertelement <8 x double> poison, double %1084, i64 0
-  %1112 = shufflevector <8 x double> %1111, <8 x double> poison, <8 x i32> zeroinitializer
-  %1113 = fmul contract <8 x double> %855, %1112
-  %1114 = fadd contract <8 x double> %1110, %1113
-  %1115 = fmul contract <8 x double> %863, %1105
-  %1116 = fmul contract <8 x double> %867, %1108
-  %1117 = fadd contract <8 x double> %1115, %1116
-  %1118 = fmul contract <8 x double> %871, %1112
-  %1119 = fadd contract <8 x double> %1117, %1118
-  %1120 = fmul contract <8 x double> %877, %1105
-  %1121 = fmul contract <8 x double> %881, %1108
-  %1122 = fadd contract <8 x double> %1120, %1121
-  %1123 = fmul contract <8 x double> %885, %1112
-  %1124 = fadd contract <8 x double> %1122, %1123
-  %1125 = insertelement <8 x double> poison, double %1088, i64 0
-  %1126 = shufflevector <8 x double> %1125, <8 x double> poison, <8 x i32> zeroinitializer
-  %1127 = fmul contract <8 x double> %783, %1126
-  %1128 = insertelement <8 x double> poison, double %1091, i64 0
+1118:
+  %1119 = fmul contract <8 x double> %1053, zeroinitializer
+  %1120 = fadd contract <8 x double> %1119, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %1121 = insertelement <8 x double> poison, double %1094, i64 0
+  %1122 = shufflevector <8 x double> %1121, <8 x double> poison, <8 x i32> zeroinitializer
+  %1123 = fmul contract <8 x double> %854, %1122
+  %1124 = insertelement <8 x double> poison, double %1097, i64 0
+  %1125 = shufflevector <8 x double> %1124, <8 x double> poison, <8 x i32> zeroinitializer
+  %1126 = fmul contract <8 x double> %860, %1125
+  %1127 = fadd contract <8 x double> %1123, %1126
+  %1128 = insertelement <8 x double> poison, double %1101, i64 0
   %1129 = shufflevector <8 x double> %1128, <8 x double> poison, <8 x i32> zeroinitializer
-  %1130 = fmul contract <8 x double> %789, %1129
+  %1130 = fmul contract <8 x double> %866, %1129
   %1131 = fadd contract <8 x double> %1127, %1130
-  %1132 = insertelement <8 x double> poison, double %1095, i64 0
-  %1133 = shufflevector <8 x double> %1132, <8 x double> poison, <8 x i32> zeroinitializer
-  %1134 = fmul contract <8 x double> %795, %1133
-  %1135 = fadd contract <8 x double> %1131, %1134
-  %1136 = fmul contract <8 x double> %803, %1126
-  %1137 = fmul contract <8 x double> %807, %1129
-  %1138 = fadd contract <8 x double> %1136, %1137
-  %1139 = fmul contract <8 x double> %811, %1133
-  %1140 = fadd contract <8 x double> %1138, %1139
-  %1141 = fmul contract <8 x double> %817, %1126
-  %1142 = fmul contract <8 x double> %821, %1129
-  %1143 = fadd contract <8 x double> %1141, %1142
-  %1144 = fmul contract <8 x double> %825, %1133
-  %1145 = fadd contract <8 x double> %1143, %1144
-  %1146 = fcmp contract ogt double %1086, 0.000000e+00
-  %1147 = fdiv contract double 1.000000e+00, %1086
-  %1148 = select contract i1 %1146, double %1147, double 0.000000e+00
-  %1149 = fcmp contract ogt double %1097, 0.000000e+00
-  %1150 = fdiv contract double 1.000000e+00, %1097
-  %1151 = select contract i1 %1149, double %1150, double 0.000000e+00
-  %1152 = fmul contract <8 x double> %1114, %1135
-  %1153 = fmul contract <8 x double> %1119, %1140
-  %1154 = fadd contract <8 x double> %1152, %1153
-  %1155 = fmul contract <8 x double> %1124, %1145
-  %1156 = fadd contract <8 x double> %1155, %1154
-  %1157 = fmul contract <8 x double> %1051, %1114
-  %1158 = fmul contract <8 x double> %1054, %1119
-  %1159 = fadd contract <8 x double> %1157, %1158
-  %1160 = fmul contract <8 x double> %1057, %1124
-  %1161 = fadd contract <8 x double> %1160, %1159
-  %1162 = fmul contract <8 x double> %1051, %1135
-  %1163 = fmul contract <8 x double> %1054, %1140
-  %1164 = fadd contract <8 x double> %1162, %1163
-  %1165 = fmul contract <8 x double> %1057, %1145
-  %1166 = fadd contract <8 x double> %1165, %1164
-  %1167 = fmul contract double %1086, %1097
-  %1168 = insertelement <8 x double> poison, double %1167, i64 0
-  %1169 = shufflevector <8 x double> %1168, <8 x double> poison, <8 x i32> zeroinitializer
-  %1170 = fmul contract <8 x double> %1156, %1156
-  %1171 = fsub contract <8 x double> %1169, %1170
-  %1172 = fmul contract double %1086, 0x3E7AD7F29ABCAF48
-  %1173 = fmul contract double %1172, %1097
-  %1174 = insertelement <8 x double> poison, double %1173, i64 0
-  %1175 = shufflevector <8 x double> %1174, <8 x double> poison, <8 x i32> zeroinitializer
-  %1176 = fcmp contract ogt <8 x double> %1171, %1175
-  %1177 = fmul contract <8 x double> %1156, %1166
-  %1178 = insertelement <8 x double> poison, double %1097, i64 0
-  %1179 = shufflevector <8 x double> %1178, <8 x double> poison, <8 x i32> zeroinitializer
-  %1180 = fmul contract <8 x double> %1179, %1161
-  %1181 = fsub contract <8 x double> %1177, %1180
-  %1182 = select contract <8 x i1> %1176, <8 x double> %1171, <8 x double> %1103
-  %1183 = fdiv contract <8 x double> %1181, %1182
-  %1184 = fneg contract <8 x double> %1103
-  %1185 = fcmp contract ogt <8 x double> %1183, %1184
-  %1186 = select contract <8 x i1> %1185, <8 x double> %1183, <8 x double> %1184
-  %1187 = fcmp contract olt <8 x double> %1186, %1103
-  %1188 = select contract <8 x i1> %1187, <8 x double> %1186, <8 x double> %1103
-  %1189 = select contract <8 x i1> %1176, <8 x double> %1188, <8 x double> %1184
-  %1190 = fmul contract <8 x double> %1156, %1189
-  %1191 = fadd contract <8 x double> %1166, %1190
-  %1192 = insertelement <8 x double> poison, double %1151, i64 0
-  %1193 = shufflevector <8 x double> %1192, <8 x double> poison, <8 x i32> zeroinitializer
-  %1194 = fmul contract <8 x double> %1193, %1191
-  %1195 = fcmp contract ogt <8 x double> %1194, %1184
-  %1196 = select contract <8 x i1> %1195, <8 x double> %1194, <8 x double> %1184
-  %1197 = fcmp contract olt <8 x double> %1196, %1103
-  %1198 = select contract <8 x i1> %1197, <8 x double> %1196, <8 x double> %1103
-  %1199 = fmul contract <8 x double> %1156, %1198
-  %1200 = fsub contract <8 x double> %1199, %1161
-  %1201 = insertelement <8 x double> poison, double %1148, i64 0
-  %1202 = shufflevector <8 x double> %1201, <8 x double> poison, <8 x i32> zeroinitializer
-  %1203 = fmul contract <8 x double> %1202, %1200
-  %1204 = fcmp contract ogt <8 x double> %1203, %1184
-  %1205 = select contract <8 x i1> %1204, <8 x double> %1203, <8 x double> %1184
-  %1206 = fcmp contract olt <8 x double> %1205, %1103
-  %1207 = select contract <8 x i1> %1206, <8 x double> %1205, <8 x double> %1103
-  %1208 = fmul contract <8 x double> %1156, %1207
-  %1209 = fadd contract <8 x double> %1166, %1208
-  %1210 = fmul contract <8 x double> %1193, %1209
-  %1211 = fcmp contract ogt <8 x double> %1210, %1184
-  %1212 = select contract <8 x i1> %1211, <8 x double> %1210, <8 x double> %1184
-  %1213 = fcmp contract olt <8 x double> %1212, %1103
-  %1214 = select contract <8 x i1> %1213, <8 x double> %1212, <8 x double> %1103
-  %1215 = fmul contract <8 x double> %1114, %1207
-  %1216 = fadd contract <8 x double> %1051, %1215
-  %1217 = fmul contract <8 x double> %1135, %1214
-  %1218 = fsub contract <8 x double> %1216, %1217
-  %1219 = fmul contract <8 x double> %1119, %1207
-  %1220 = fadd contract <8 x double> %1054, %1219
-  %1221 = fmul contract <8 x double> %1140, %1214
-  %1222 = fsub contract <8 x double> %1220, %1221
-  %1223 = fmul contract <8 x double> %1124, %1207
-  %1224 = fadd contract <8 x double> %1057, %1223
-  %1225 = fmul contract <8 x double> %1145, %1214
-  %1226 = fsub contract <8 x double> %1224, %1225
-  %1227 = fmul contract <8 x double> %1218, %1218
-  %1228 = fmul contract <8 x double> %1222, %1222
-  %1229 = fadd contract <8 x double> %1227, %1228
-  %1230 = fmul contract <8 x double> %1226, %1226
-  %1231 = fadd contract <8 x double> %1230, %1229
-  br label %1232
+  %1132 = fmul contract <8 x double> %874, %1122
+  %1133 = fmul contract <8 x double> %878, %1125
+  %1134 = fadd contract <8 x double> %1132, %1133
+  %1135 = fmul contract <8 x double> %882, %1129
+  %1136 = fadd contract <8 x double> %1134, %1135
+  %1137 = fmul contract <8 x double> %888, %1122
+  %1138 = fmul contract <8 x double> %892, %1125
+  %1139 = fadd contract <8 x double> %1137, %1138
+  %1140 = fmul contract <8 x double> %896, %1129
+  %1141 = fadd contract <8 x double> %1139, %1140
+  %1142 = insertelement <8 x double> poison, double %1105, i64 0
+  %1143 = shufflevector <8 x double> %1142, <8 x double> poison, <8 x i32> zeroinitializer
+  %1144 = fmul contract <8 x double> %792, %1143
+  %1145 = insertelement <8 x double> poison, double %1108, i64 0
+  %1146 = shufflevector <8 x double> %1145, <8 x double> poison, <8 x i32> zeroinitializer
+  %1147 = fmul contract <8 x double> %798, %1146
+  %1148 = fadd contract <8 x double> %1144, %1147
+  %1149 = insertelement <8 x double> poison, double %1112, i64 0
+  %1150 = shufflevector <8 x double> %1149, <8 x double> poison, <8 x i32> zeroinitializer
+  %1151 = fmul contract <8 x double> %804, %1150
+  %1152 = fadd contract <8 x double> %1148, %1151
+  %1153 = fmul contract <8 x double> %812, %1143
+  %1154 = fmul contract <8 x double> %816, %1146
+  %1155 = fadd contract <8 x double> %1153, %1154
+  %1156 = fmul contract <8 x double> %820, %1150
+  %1157 = fadd contract <8 x double> %1155, %1156
+  %1158 = fmul contract <8 x double> %826, %1143
+  %1159 = fmul contract <8 x double> %830, %1146
+  %1160 = fadd contract <8 x double> %1158, %1159
+  %1161 = fmul contract <8 x double> %834, %1150
+  %1162 = fadd contract <8 x double> %1160, %1161
+  %1163 = fcmp contract ogt double %1103, 0.000000e+00
+  %1164 = fdiv contract double 1.000000e+00, %1103
+  %1165 = select contract i1 %1163, double %1164, double 0.000000e+00
+  %1166 = fcmp contract ogt double %1114, 0.000000e+00
+  %1167 = fdiv contract double 1.000000e+00, %1114
+  %1168 = select contract i1 %1166, double %1167, double 0.000000e+00
+  %1169 = fmul contract <8 x double> %1131, %1152
+  %1170 = fmul contract <8 x double> %1136, %1157
+  %1171 = fadd contract <8 x double> %1169, %1170
+  %1172 = fmul contract <8 x double> %1141, %1162
+  %1173 = fadd contract <8 x double> %1172, %1171
+  %1174 = fmul contract <8 x double> %1066, %1131
+  %1175 = fmul contract <8 x double> %1069, %1136
+  %1176 = fadd contract <8 x double> %1174, %1175
+  %1177 = fmul contract <8 x double> %1072, %1141
+  %1178 = fadd contract <8 x double> %1177, %1176
+  %1179 = fmul contract <8 x double> %1066, %1152
+  %1180 = fmul contract <8 x double> %1069, %1157
+  %1181 = fadd contract <8 x double> %1179, %1180
+  %1182 = fmul contract <8 x double> %1072, %1162
+  %1183 = fadd contract <8 x double> %1182, %1181
+  %1184 = fmul contract double %1103, %1114
+  %1185 = insertelement <8 x double> poison, double %1184, i64 0
+  %1186 = shufflevector <8 x double> %1185, <8 x double> poison, <8 x i32> zeroinitializer
+  %1187 = fmul contract <8 x double> %1173, %1173
+  %1188 = fsub contract <8 x double> %1186, %1187
+  %1189 = fmul contract double %1103, 0x3E7AD7F29ABCAF48
+  %1190 = fmul contract double %1189, %1114
+  %1191 = insertelement <8 x double> poison, double %1190, i64 0
+  %1192 = shufflevector <8 x double> %1191, <8 x double> poison, <8 x i32> zeroinitializer
+  %1193 = fcmp contract ogt <8 x double> %1188, %1192
+  %1194 = fmul contract <8 x double> %1173, %1183
+  %1195 = insertelement <8 x double> poison, double %1114, i64 0
+  %1196 = shufflevector <8 x double> %1195, <8 x double> poison, <8 x i32> zeroinitializer
+  %1197 = fmul contract <8 x double> %1196, %1178
+  %1198 = fsub contract <8 x double> %1194, %1197
+  %1199 = select contract <8 x i1> %1193, <8 x double> %1188, <8 x double> %1120
+  %1200 = fdiv contract <8 x double> %1198, %1199
+  %1201 = fneg contract <8 x double> %1120
+  %1202 = fcmp contract ogt <8 x double> %1200, %1201
+  %1203 = select contract <8 x i1> %1202, <8 x double> %1200, <8 x double> %1201
+  %1204 = fcmp contract olt <8 x double> %1203, %1120
+  %1205 = select contract <8 x i1> %1204, <8 x double> %1203, <8 x double> %1120
+  %1206 = select contract <8 x i1> %1193, <8 x double> %1205, <8 x double> %1201
+  %1207 = fmul contract <8 x double> %1173, %1206
+  %1208 = fadd contract <8 x double> %1183, %1207
+  %1209 = insertelement <8 x double> poison, double %1168, i64 0
+  %1210 = shufflevector <8 x double> %1209, <8 x double> poison, <8 x i32> zeroinitializer
+  %1211 = fmul contract <8 x double> %1210, %1208
+  %1212 = fcmp contract ogt <8 x double> %1211, %1201
+  %1213 = select contract <8 x i1> %1212, <8 x double> %1211, <8 x double> %1201
+  %1214 = fcmp contract olt <8 x double> %1213, %1120
+  %1215 = select contract <8 x i1> %1214, <8 x double> %1213, <8 x double> %1120
+  %1216 = fmul contract <8 x double> %1173, %1215
+  %1217 = fsub contract <8 x double> %1216, %1178
+  %1218 = insertelement <8 x double> poison, double %1165, i64 0
+  %1219 = shufflevector <8 x double> %1218, <8 x double> poison, <8 x i32> zeroinitializer
+  %1220 = fmul contract <8 x double> %1219, %1217
+  %1221 = fcmp contract ogt <8 x double> %1220, %1201
+  %1222 = select contract <8 x i1> %1221, <8 x double> %1220, <8 x double> %1201
+  %1223 = fcmp contract olt <8 x double> %1222, %1120
+  %1224 = select contract <8 x i1> %1223, <8 x double> %1222, <8 x double> %1120
+  %1225 = fmul contract <8 x double> %1173, %1224
+  %1226 = fadd contract <8 x double> %1183, %1225
+  %1227 = fmul contract <8 x double> %1210, %1226
+  %1228 = fcmp contract ogt <8 x double> %1227, %1201
+  %1229 = select contract <8 x i1> %1228, <8 x double> %1227, <8 x double> %1201
+  %1230 = fcmp contract olt <8 x double> %1229, %1120
+  %1231 = select contract <8 x i1> %1230, <8 x double> %1229, <8 x double> %1120
+  %1232 = fmul contract <8 x double> %1131, %1224
+  %1233 = fadd contract <8 x double> %1066, %1232
+  %1234 = fmul contract <8 x double> %1152, %1231
+  %1235 = fsub contract <8 x double> %1233, %1234
+  %1236 = fmul contract <8 x double> %1136, %1224
+  %1237 = fadd contract <8 x double> %1069, %1236
+  %1238 = fmul contract <8 x double> %1157, %1231
+  %1239 = fsub contract <8 x double> %1237, %1238
+  %1240 = fmul contract <8 x double> %1141, %1224
+  %1241 = fadd contract <8 x double> %1072, %1240
+  %1242 = fmul contract <8 x double> %1162, %1231
+  %1243 = fsub contract <8 x double> %1241, %1242
+  %1244 = fmul contract <8 x double> %1235, %1235
+  %1245 = fmul contract <8 x double> %1239, %1239
+  %1246 = fadd contract <8 x double> %1244, %1245
+  %1247 = fmul contract <8 x double> %1243, %1243
+  %1248 = fadd contract <8 x double> %1247, %1246
+  br label %1249
 
-1232:
-  %1233 = phi <8 x double> [ %1231, %1101 ], [ %1062, %1067 ]
-  %1234 = fmul contract <8 x double> %1075, %1075
-  %1235 = fcmp contract olt <8 x double> %1233, %1234
-  %1236 = select <8 x i1> %1235, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %991
-  br label %1237
+1249:
+  %1250 = phi <8 x double> [ %1248, %1118 ], [ %1077, %1082 ]
+  %1251 = fmul contract <8 x double> %1092, %1092
+  %1252 = fcmp contract olt <8 x double> %1250, %1251
+  %1253 = select <8 x i1> %1252, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %1002
+  br label %1254
 
-1237:
-  %1238 = phi i1 [ true, %1232 ], [ false, %1027 ], [ true, %1037 ], [ false, %1002 ]
-  %1239 = phi i64 [ %1042, %1232 ], [ %994, %1027 ], [ %1042, %1037 ], [ %996, %1002 ]
-  %1240 = phi <8 x i64> [ %1236, %1232 ], [ %991, %1027 ], [ %991, %1037 ], [ %991, %1002 ]
-  %1241 = add nsw i64 %992, 1
-  %1242 = icmp eq i64 %1241, %905
-  br i1 %1242, label %988, label %990
+1254:
+  %1255 = phi i1 [ true, %1249 ], [ false, %1040 ], [ true, %1050 ], [ false, %1013 ]
+  %1256 = phi i64 [ %1055, %1249 ], [ %1005, %1040 ], [ %1055, %1050 ], [ %1007, %1013 ]
+  %1257 = phi <8 x i64> [ %1253, %1249 ], [ %1002, %1040 ], [ %1002, %1050 ], [ %1002, %1013 ]
+  %1258 = add nsw i64 %1003, 1
+  %1259 = icmp eq i64 %1258, %916
+  br i1 %1259, label %999, label %1001
 
-1243:
-  %1244 = phi i64 [ %985, %988 ], [ %753, %751 ]
-  %1245 = phi <8 x i64> [ %989, %988 ], [ %752, %751 ]
-  %1246 = add nuw nsw i64 %754, 1
-  %1247 = icmp eq i64 %1246, %52
-  br i1 %1247, label %749, label %751
+1260:
+  %1261 = phi i64 [ %996, %999 ], [ %762, %760 ]
+  %1262 = phi <8 x i64> [ %1000, %999 ], [ %761, %760 ]
+  %1263 = add nuw nsw i64 %763, 1
+  %1264 = icmp eq i64 %1263, %52
+  br i1 %1264, label %758, label %760
 
-1248:
-  %1249 = phi <8 x i64> [ %750, %749 ], [ %640, %639 ]
-  %1250 = icmp sgt i64 %189, 0
-  br i1 %1250, label %1268, label %1298
-
-1251:
-  %1252 = phi <8 x double> [ %190, %188 ], [ %1262, %1251 ]
-  %1253 = phi <8 x double> [ %191, %188 ], [ %1265, %1251 ]
-  %1254 = phi i64 [ 0, %188 ], [ %1266, %1251 ]
-  %1255 = icmp sgt i64 %189, %1254
-  %1256 = xor i64 %1254, -1
-  %1257 = select i1 %1255, i64 %1256, i64 -1
-  %1258 = add i64 %1257, %189
-  %1259 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1258
-  %1260 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1254
-  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1260, ptr noundef nonnull align 16 dereferenceable(16) %1259, i64 16, i1 false)
-  %1261 = load double, ptr %1260, align 16
-  %1262 = insertelement <8 x double> %1252, double %1261, i64 %1254
-  %1263 = getelementptr inbounds i8, ptr %1260, i64 8
-  %1264 = load double, ptr %1263, align 8
-  %1265 = insertelement <8 x double> %1253, double %1264, i64 %1254
-  %1266 = add nuw nsw i64 %1254, 1
-  %1267 = icmp eq i64 %1266, 8
-  br i1 %1267, label %192, label %1251
+1265:
+  %1266 = phi <8 x i64> [ %759, %758 ], [ %646, %645 ]
+  %1267 = icmp sgt i64 %189, 0
+  br i1 %1267, label %1285, label %1315
 
 1268:
-  %1269 = phi i64 [ %1295, %1294 ], [ %207, %1248 ]
-  %1270 = phi i64 [ %1296, %1294 ], [ 0, %1248 ]
-  %1271 = extractelement <8 x i64> %1249, i64 %1270
-  %1272 = icmp eq i64 %1271, 0
-  br i1 %1272, label %1294, label %1273
+  %1269 = phi <8 x double> [ %190, %188 ], [ %1279, %1268 ]
+  %1270 = phi <8 x double> [ %191, %188 ], [ %1282, %1268 ]
+  %1271 = phi i64 [ 0, %188 ], [ %1283, %1268 ]
+  %1272 = icmp sgt i64 %189, %1271
+  %1273 = xor i64 %1271, -1
+  %1274 = select i1 %1272, i64 %1273, i64 -1
+  %1275 = add i64 %1274, %189
+  %1276 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1275
+  %1277 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1271
+  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1277, ptr noundef nonnull align 16 dereferenceable(16) %1276, i64 16, i1 false)
+  %1278 = load double, ptr %1277, align 16
+  %1279 = insertelement <8 x double> %1269, double %1278, i64 %1271
+  %1280 = getelementptr inbounds i8, ptr %1277, i64 8
+  %1281 = load double, ptr %1280, align 8
+  %1282 = insertelement <8 x double> %1270, double %1281, i64 %1271
+  %1283 = add nuw nsw i64 %1271, 1
+  %1284 = icmp eq i64 %1283, 8
+  br i1 %1284, label %192, label %1268
 
-1273:
-  %1274 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1270
-  %1275 = getelementptr inbounds i8, ptr %1274, i64 8
-  %1276 = load double, ptr %1275, align 8
-  %1277 = fmul contract double %161, %1276
-  %1278 = fmul contract double %1277, 2.000000e+00
-  %1279 = fcmp contract olt double %1278, %5
-  %1280 = icmp sgt i64 %1269, 4094
-  %1281 = select i1 %1279, i1 true, i1 %1280
-  br i1 %1281, label %1282, label %1283
+1285:
+  %1286 = phi i64 [ %1312, %1311 ], [ %207, %1265 ]
+  %1287 = phi i64 [ %1313, %1311 ], [ 0, %1265 ]
+  %1288 = extractelement <8 x i64> %1266, i64 %1287
+  %1289 = icmp eq i64 %1288, 0
+  br i1 %1289, label %1311, label %1290
 
-1282:
+1290:
+  %1291 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1287
+  %1292 = getelementptr inbounds i8, ptr %1291, i64 8
+  %1293 = load double, ptr %1292, align 8
+  %1294 = fmul contract double %161, %1293
+  %1295 = fmul contract double %1294, 2.000000e+00
+  %1296 = fcmp contract olt double %1295, %5
+  %1297 = icmp sgt i64 %1286, 4094
+  %1298 = select i1 %1296, i1 true, i1 %1297
+  br i1 %1298, label %1299, label %1300
+
+1299:
   call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %14)
-  br label %1301
+  br label %1318
 
-1283:
-  %1284 = fmul contract double %1276, 5.000000e-01
-  %1285 = load double, ptr %1274, align 16
-  %1286 = fsub contract double %1285, %1284
-  %1287 = add nsw i64 %1269, 1
-  %1288 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1269
-  store double %1286, ptr %1288, align 16
-  %1289 = getelementptr inbounds i8, ptr %1288, i64 8
-  store double %1284, ptr %1289, align 8
-  %1290 = fadd contract double %1284, %1285
-  %1291 = add nsw i64 %1269, 2
-  %1292 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1287
-  store double %1290, ptr %1292, align 16
-  %1293 = getelementptr inbounds i8, ptr %1292, i64 8
-  store double %1284, ptr %1293, align 8
-  br label %1294
+1300:
+  %1301 = fmul contract double %1293, 5.000000e-01
+  %1302 = load double, ptr %1291, align 16
+  %1303 = fsub contract double %1302, %1301
+  %1304 = add nsw i64 %1286, 1
+  %1305 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1286
+  store double %1303, ptr %1305, align 16
+  %1306 = getelementptr inbounds i8, ptr %1305, i64 8
+  store double %1301, ptr %1306, align 8
+  %1307 = fadd contract double %1301, %1302
+  %1308 = add nsw i64 %1286, 2
+  %1309 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1304
+  store double %1307, ptr %1309, align 16
+  %1310 = getelementptr inbounds i8, ptr %1309, i64 8
+  store double %1301, ptr %1310, align 8
+  br label %1311
 
-1294:
-  %1295 = phi i64 [ %1269, %1268 ], [ %1291, %1283 ]
-  %1296 = add nuw nsw i64 %1270, 1
-  %1297 = icmp eq i64 %1296, %206
-  br i1 %1297, label %1298, label %1268
+1311:
+  %1312 = phi i64 [ %1286, %1285 ], [ %1308, %1300 ]
+  %1313 = add nuw nsw i64 %1287, 1
+  %1314 = icmp eq i64 %1313, %206
+  br i1 %1314, label %1315, label %1285
 
-1298:
-  %1299 = phi i64 [ %207, %1248 ], [ %1295, %1294 ]
+1315:
+  %1316 = phi i64 [ %207, %1265 ], [ %1312, %1311 ]
   call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %14)
-  %1300 = icmp eq i64 %1299, 0
-  br i1 %1300, label %1301, label %188
+  %1317 = icmp eq i64 %1316, 0
+  br i1 %1317, label %1318, label %188
 
-1301:
-  %1302 = phi i8 [ 0, %1282 ], [ 1, %1298 ]
+1318:
+  %1319 = phi i8 [ 0, %1299 ], [ 1, %1315 ]
   call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %13)
   call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %12)
   call void @llvm.lifetime.end.p0(i64 2448, ptr nonnull %11)
-  %1303 = getelementptr inbounds i8, ptr %6, i64 %41
-  store i8 %1302, ptr %1303, align 1
-  %1304 = add nuw nsw i64 %41, 1
-  %1305 = icmp eq i64 %1304, %4
-  br i1 %1305, label %39, label %40
+  %1320 = getelementptr inbounds i8, ptr %6, i64 %41
+  store i8 %1319, ptr %1320, align 1
+  %1321 = add nuw nsw i64 %41, 1
+  %1322 = icmp eq i64 %1321, %4
+  br i1 %1322, label %39, label %40
 }
 
 define i64 @search_route(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3, i64 noundef %4, i64 noundef %5, ptr nocapture noundef %6, ptr nocapture noundef writeonly %7) {
