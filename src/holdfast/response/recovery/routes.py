@@ -144,7 +144,7 @@ def _search_compiled(
 ) -> tuple[FloatArray, int] | None:
     """Return a short route from start (n,) to one of the goals (G, n) and the index of the goal, or None if none is proved.
 
-    A route is searched with some room to spare and few checks. If its proof fails, the next search has less room and more
+    A route is searched with additional room and few checks. If its proof fails, the next search has less room and more
     checks. With exact distances, the spheres around the arm may overlap objects, by more in each search.
     """
     assert space.search_edges is not None
