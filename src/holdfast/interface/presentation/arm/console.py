@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.formatting import format_number
-from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Notice, Presentation, TableSpec
 from holdfast.model import arms
 from holdfast.model.arm.machine import DRY_FRICTION
 from holdfast.model.arm.model import Arm
@@ -61,13 +61,12 @@ def to_dict(arm: Arm) -> dict[str, Any]:
 
 def present(arm: Arm) -> Presentation:
     """Present the joints with their types, limits, and link masses."""
-    columns = [Header(key, key) for key in ("joint", "type", "lower", "upper")]
     rows = []
     for joint, link in zip(arm.joints, arm.links, strict=True):
         factor, unit = joint.display_unit
         limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
         rows.append((joint.name, joint.type, *limits, "not given" if link is None else f"{format_number(link.mass, 4)} kg"))
-    table = TableSpec("Joints", [*columns, Header("link_mass", "link mass")], rows)
+    table = TableSpec("Joints", ["joint", "type", "lower", "upper", "link mass"], rows)
     source = [f"Source: {arm.source}"] if arm.source else []
     return Presentation(arm.name, f"{arm.title}: {arm.n} joints", lines=source, tables=[table])
 

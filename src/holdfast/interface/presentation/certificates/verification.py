@@ -19,7 +19,7 @@ from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent, qualify_claim
 from holdfast.interface import report
 from holdfast.interface.presentation.certificates import working_ranges
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.palette import EMPTY_COLOR, INK
 
 SCOPE_NOTE = "collisions, torques, speed. Assumptions: links are rigid, the geometry is that of the file, locks do not slip"
@@ -144,14 +144,13 @@ def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence
     """Tabulate fractions, cells, search time and verification of each part."""
     parts = proof.parts if isinstance(proof, TolerantProof | PathProof) else (proof,)
     checks = [None] * len(parts) if check is None else check.parts or (check,)
-    columns = [
-        Header("lock", "lock of"),
-        *(Header(name, name) for name in ("proved", "refuted", "undecided")),
-        *[Header("gaps", "undecided between knots")] * bool(gaps),
-        Header("cells", "cells"),
-        Header("search", "search, s", digits=3),
-        Header("verifier", "verified by"),
-        Header("check", "check, s", digits=3),
+    columns: list[Column] = [
+        *("lock of", "proved", "refuted", "undecided"),
+        *["undecided between knots"] * bool(gaps),
+        "cells",
+        Header("search, s", digits=3),
+        "verified by",
+        Header("check, s", digits=3),
     ]
     rows = []
     for index, (part, checked) in enumerate(zip(parts, checks, strict=True)):

@@ -21,7 +21,15 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    FigureSpec,
+    Presentation,
+    TableSpec,
+    format_value,
+    make_headers,
+)
 from holdfast.interface.report.page import Block, Code, Section
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
@@ -77,8 +85,7 @@ def present(designs: ConvergenceDesigns) -> Presentation:
     facts = [] if is_given else [Fact("", best_value, phrase=phrases[1], style="percent")]
     facts.append(Fact("", given_value, phrase=phrases[0], style="percent"))
     facts.append(Fact("designs", len(designs.values), phrase="designs were evaluated"))
-    columns = [Header("measure", "measure"), Header("given", "baseline arm", style="percent")]
-    columns += [Header("best", "best design", style="percent"), Header("meaning", "meaning")]
+    columns: list[Column] = ["measure", *make_headers("baseline arm", "best design", style="percent"), "meaning"]
     tables = [tabulate_parameters(designs.space, designs.values[best]), TableSpec("Measured in the search", columns, measures)]
     settings = designs.searched
     measured = (

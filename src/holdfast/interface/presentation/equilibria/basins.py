@@ -13,7 +13,7 @@ from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.equilibria import points as points_of
 from holdfast.interface.presentation.equilibria.curves import display_values, label_axis
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
 
 
 def to_dict(basins: Basins) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def present(basins: Basins) -> Presentation:
         f"a grid of {basins.shape[0]} by {basins.shape[1]}" if basins.shape else "sampled uniformly within the joint limits"
     )
     errors = dict(zip(map(basins.name, range(len(points))), points_of.format_target_errors(points).tolist(), strict=True))
-    columns = [Header("end", "ends at"), Header("fraction", "fraction of starts"), Header("error", "distance from the target")]
+    columns = ["ends at", "fraction of starts", "distance from the target"]
     rows = [(name, fraction, errors.get(name, "")) for name, fraction in basins.shares]
     return Presentation(
         f"Starts from which {points.law.arm.name} still reaches its target",

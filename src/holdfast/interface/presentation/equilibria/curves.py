@@ -17,7 +17,7 @@ from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import list_alternatives
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
 from holdfast.model.arm.model import Arm
 
@@ -156,10 +156,8 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
             errors = display_errors(curves.law, curve.q, curve.error, curves.target)
             spans = [values[segment.first : segment.last + 1] for values in errors]
             rows.append((index, f"{first:.3f} to {last:.3f}", segment.kind.word, *((s.min(), s.max()) for s in spans)))
-    columns = [Header("curve", "curve"), Header("range", f"{arm.joint_names[curves.joint]}, {unit}"), Header("kind", "kind")]
-    columns += [
-        Header(kind.key, f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)
-    ]
+    columns: list[Column] = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind"]
+    columns += [Header(f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)]
     return TableSpec("Segments of one kind", columns, rows)
 
 

@@ -46,7 +46,7 @@ def present(curve: DropCurve) -> Presentation:
     times = [("never" if time is None else f"{time:.3g} s") for _, time in rows]
     table = TableSpec(
         "Time for which a buffered supply must drive the arm along this motion",
-        [Header("limit_mm", "until the drop stays below", "mm"), Header("hold_up", "hold-up time")],
+        [Header("until the drop stays below", "mm"), "hold-up time"],
         [(limit, time) for (limit, _), time in zip(rows, times, strict=True)],
     )
     return Presentation(

@@ -12,7 +12,7 @@ from holdfast.core.formatting import capitalise_first, format_count, format_numb
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec, make_headers
 from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
 from holdfast.interface.presentation.renderers import sentences, write_json
 from holdfast.interface.report.page import Section
@@ -218,7 +218,7 @@ def _tabulate_joints(recovery: Recovery) -> TableSpec:
     factors, units = zip(*(joint.display_unit for joint in recovery.arm.joints), strict=True)
     start, end = np.array(factors) * configurations
     marks = [recovery.degraded.mark(name) for name in recovery.arm.joint_names]
-    columns = [Header("joint", "joint"), Header("start", "start", units), Header("end", "end", units), Header("mark", "")]
+    columns: list[Column] = ["joint", *make_headers("start", "end", unit=units), ""]
     rows = list(zip(recovery.arm.joint_names, start.tolist(), end.tolist(), marks, strict=True))
     return TableSpec("Joint positions", columns, rows)
 

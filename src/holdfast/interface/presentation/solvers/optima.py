@@ -19,7 +19,16 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    Header,
+    Notice,
+    Presentation,
+    TableSpec,
+    format_value,
+    make_headers,
+)
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
@@ -183,23 +192,23 @@ def _compose_answer(optima: Optima, before: float, after: float) -> str:
 def _tabulate_joints(rows: Optima) -> TableSpec:
     """Tabulate the configuration and the measures of a single pose joint by joint."""
     units, arm = [joint.unit for joint in rows.arm.joints], rows.arm
-    columns, values = [Header("joint", "joint")], [list(arm.joint_names)]
+    columns: list[Column] = ["joint"]
+    values = [list(arm.joint_names)]
     for label, joint_units, before, after in [("", units, rows.q_before, rows.q), *_compare_measures(rows)]:
         for moment, numbers in (("before", before), ("best", after)):
-            columns.append(Header(moment, f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
+            columns.append(Header(f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
             values.append(numbers[0].tolist())
     return TableSpec("Configurations, before and best", columns, list(zip(*values, strict=True)))
 
 
 def _tabulate_poses(rows: Optima, unit: str) -> TableSpec:
     """Tabulate the objective of each pose."""
-    columns = [
-        Header("pose", "pose"),
-        Header("before", "before", unit, digits=6, aligned=False),
-        Header("best", "best", unit, digits=6, aligned=False),
-        Header("agreeing", "same optimum", style="percent"),
-        Header("starts", "of searches"),
-        Header("status", ""),
+    columns: list[Column] = [
+        "pose",
+        *make_headers("before", "best", unit=unit, digits=6, aligned=False),
+        Header("same optimum", style="percent"),
+        "of searches",
+        "",
     ]
     status_texts = ["" if status == Status.OK else _status_name(status).replace("_", " ") for status in rows.status]
     numbers = range(1, len(rows.poses) + 1)

@@ -13,7 +13,7 @@ from holdfast.core.status import Status
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.solvers.joint_space import is_unlimited
 from holdfast.kinematics.solvers.self_motions import SelfMotion
@@ -151,12 +151,7 @@ def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> 
 
 def _build_tables(motion: SelfMotion) -> list[TableSpec]:
     """Tabulate the curves, and the allowed lock positions of each joint."""
-    columns = [
-        Header("curve", "curve"),
-        Header("length_rad", "length, rad", aligned=False),
-        Header("points", "points"),
-        Header("ends", ""),
-    ]
+    columns: list[Column] = ["curve", Header("length, rad", aligned=False), "points", ""]
     rows = [(i + 1, curve.length, len(curve.q), motion.ends(i)) for i, curve in enumerate(motion.components)]
     specs = [TableSpec("Self-motions", columns, rows)] if rows else []
     if motion.bounds is not None:
@@ -168,7 +163,7 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
             for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]
         title = "After a lock of one joint, the target stays within reach if and only if the joint locks in these ranges"
-        specs.append(TableSpec(title, [Header("joint", "joint"), Header("may_lock_at", "allowed lock positions")], lock_rows))
+        specs.append(TableSpec(title, ["joint", "allowed lock positions"], lock_rows))
     return specs
 
 

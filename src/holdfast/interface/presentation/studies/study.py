@@ -15,7 +15,7 @@ from holdfast.core.formatting import format_count, format_duration, list_alterna
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
 from holdfast.core.sweeps.study_merge import MergeReport
-from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Notice, Presentation, TableSpec
 from holdfast.interface.presentation.renderers import build_page
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
 from holdfast.interface.presentation.studies.sections import build_sections
@@ -64,7 +64,7 @@ def _present_progress(study: Study) -> Presentation:
     spent = format_duration(sum(cell.seconds for cell in cells))
     listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
     is_cut = len(listed_cells) > _MAX_TABLE_CELLS
-    columns = [Header("name", "cell"), Header("rows", "rows"), Header("chunks", "chunks"), Header("seconds", "processor time")]
+    columns = ["cell", "rows", "chunks", "processor time"]
     rows = [
         (
             cell.name,

@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.formatting import format_number, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import choose_views
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
 from holdfast.kinematics.workspace.tolerance import TolerantWorkspace
 
@@ -61,11 +61,7 @@ def present(region: TolerantWorkspace) -> Presentation:
         "Points that the healthy arm reaches, points that it reaches within the artificial limits, and points that stay "
         "reachable wherever a joint locks. Right: their sizes, and the size that remains after the locks of each joint alone."
     )
-    columns = [
-        Header("joint", "joint"),
-        Header("limits", "artificial limits"),
-        Header("lost", "points lost by its locks", style="percent"),
-    ]
+    columns: list[Column] = ["joint", "artificial limits", Header("points lost by its locks", style="percent")]
     joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
     return Presentation(
         f"Failure-tolerant workspace of {region.arm.name}",
