@@ -10,7 +10,7 @@ import itertools
 import re
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass
 from html import escape
@@ -349,28 +349,27 @@ def bar_figure(
     stressed_count = max_count if stress == "most" else min(counts)
     with styled_figure(WIDTH_IN * 0.8, 0.75 + 0.27 * len(names)) as figure:
         axes = figure.add_subplot()
-        positions = np.arange(len(names))
-        axes.barh(positions, counts, height=0.64, color=[BLUE if bar_count == stressed_count else SKY for bar_count in counts])
-        for position, count in zip(positions, counts, strict=True):
-            fraction_text = f" ({format_percent(count / denominator)})" if denominator else ""
-            axes.annotate(
-                f"{count:{',' if isinstance(count, int) else ',.4g'}}{fraction_text}",
-                (count, position),
-                (4, 0),
-                textcoords="offset points",
-                va="center",
-                fontsize=9,
-                color=INK,
-            )
-        axes.set_yticks(positions, [format_label(name, 40) for name in names])
-        axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18), ylim=(len(names) - 0.45, -0.55))
+        colors = [BLUE if bar_count == stressed_count else SKY for bar_count in counts]
+        axes.barh(range(len(names)), counts, height=0.64, color=colors)
+        texts = [f"{count:{',' if isinstance(count, int) else ',.4g'}}" for count in counts]
+        fractions = [f" ({format_percent(count / denominator)})" if denominator else "" for count in counts]
+        label_bars(axes, names, counts, map(str.__add__, texts, fractions))
+        axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18))
         if all(isinstance(bar_count, int) for bar_count in counts):
             axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
             axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
-        axes.grid(axis="y", visible=False)
-        axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
     return figure
+
+
+def label_bars(axes: Axes, names: Sequence[str], ends: Iterable[float], texts: Iterable[str], max_letters: int = 40) -> None:
+    """Write the names next to horizontal bars, the first one on top, and a text at the end of each."""
+    for position, (end, text) in enumerate(zip(ends, texts, strict=True)):
+        axes.annotate(text, (end, position), (4, 0), textcoords="offset points", va="center", fontsize=9)
+    axes.set_yticks(range(len(names)), [format_label(name, max_letters) for name in names])
+    axes.set_ylim(len(names) - 0.45, -0.55)
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
 
 
 def settle_layout(figure: Figure) -> Figure:

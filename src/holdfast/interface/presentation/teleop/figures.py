@@ -38,7 +38,6 @@ class Scatter:
     ylabel: str
     correlation: Correlation
     groups: NDArray[np.int64]
-    equal: bool = False
 
 
 def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
@@ -64,10 +63,6 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
             axes.set(
                 xlabel=panel.xlabel, ylabel=panel.ylabel, title=f"r = {panel.correlation.r:.3f}, {panel.correlation.n} tasks"
             )
-            if panel.equal:
-                values = np.concatenate([panel.x, panel.y])
-                axis_end = float(values[np.isfinite(values)].max(initial=1.0))
-                axes.plot([0, axis_end], [0, axis_end], color=SOFT, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
         legend_below(figure, figure.axes[0], len(names))
     return figure
 
