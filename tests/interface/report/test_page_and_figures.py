@@ -67,8 +67,7 @@ def some_figures() -> list[Figure]:
         values,
         points[:5] + 1,
         chain=chain,
-        nodes=chain[1:],
-        square=np.array([True, False, False]),
+        square=np.array([True, False]),
         box=np.array([[0, 0, 0], [1, 1, 1.0]]),
     )
     return [

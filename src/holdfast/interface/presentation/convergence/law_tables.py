@@ -103,18 +103,13 @@ def build_contact_table(comparison: LawComparison) -> TableSpec:
 def build_cost_table(comparison: LawComparison, costs: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the cost of each law for the healthy arm."""
     columns = ["law"]
-    for text in ("from the line, m", "angle, deg", f"time, {get_time_unit(comparison)}"):
+    for text in ("from the line, m", "angle, deg", f"time, {comparison.runs[0].unit}"):
         columns += [f"{text}: median", "95 % quantile"]
     title = (
         "Cost while the arm is healthy, over the motions that converge with every law: distance from the straight line, "
         "largest angle to the command, and time to the target"
     )
     return TableSpec(title, columns, [list(row.values()) for row in costs])
-
-
-def get_time_unit(comparison: LawComparison) -> str:
-    """Return the unit of the time of a run."""
-    return "cycles" if comparison.runs[0].cycles else "s"
 
 
 def tabulate_gains(comparison: LawComparison) -> list[dict[str, Any]]:
@@ -137,12 +132,9 @@ def tabulate_healthy_costs(comparison: LawComparison) -> list[dict[str, Any]]:
     table_rows = []
     for name in comparison.names:
         row: dict[str, Any] = {"law": name}
-        for measure, unit, factor in (("deviation", "m", 1.0), ("angle", "deg", 180 / np.pi), ("time", "", 1.0)):
+        for measure, suffix, factor in (("deviation", "_m", 1.0), ("angle", "_deg", 180 / np.pi), ("time", "", 1.0)):
             median, upper_quantile = factor * comparison.cost(name, measure, (0.5, 0.95))  # type: ignore[arg-type]
-            row |= {
-                "_".join(word for word in (measure, quantile, unit) if word): value
-                for quantile, value in (("50", median), ("95", upper_quantile))
-            }
+            row |= {f"{measure}_50{suffix}": median, f"{measure}_95{suffix}": upper_quantile}
         table_rows.append(row)
     return table_rows
 
@@ -152,23 +144,14 @@ def tabulate_runs(comparison: LawComparison) -> list[dict[str, Any]]:
     table_rows: list[dict[str, Any]] = []
     for case in (comparison.case(name, failure) for name in comparison.names for failure in comparison.failures):
         for motion in range(len(comparison)):
-            row: dict[str, Any] = {
-                "law": case.law,
-                "failure": case.failure,
-                "motion": motion,
-                "outcome": OUTCOME_NAMES[case.code[motion]],
-            }
-            row["reachable"] = int(case.reachable[motion])
+            row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": motion}
+            row |= {"outcome": OUTCOME_NAMES[case.code[motion]], "reachable": int(case.reachable[motion])}
             row |= {kind.key: f"{getattr(case, kind.name)[motion]:.9g}" for kind in error_kinds(comparison.laws[0])}
             row |= {column: f"{getattr(case, column)[motion]:.9g}" for column in _RUN_COLUMNS}
             row["past_limits"] = int(case.past_limits[motion])
             if case.contacts is not None:
                 contact = case.contacts[motion]
-                row |= {"touched_at": "", "link": "", "object": ""}
-                row |= (
-                    {}
-                    if contact is None
-                    else {"touched_at": f"{contact.time:.9g}", "link": contact.link, "object": contact.object}
-                )
+                cells = ("", "", "") if contact is None else (f"{contact.time:.9g}", contact.link, contact.object)
+                row |= dict(zip(("touched_at", "link", "object"), cells, strict=True))
             table_rows.append(row)
     return table_rows

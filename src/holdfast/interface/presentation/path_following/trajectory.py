@@ -11,7 +11,8 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.path_following.trajectory_figures import TrajectorySections, draw_figure
+from holdfast.interface.presentation.indices.console import display_unit
+from holdfast.interface.presentation.path_following.trajectory_figures import build_sections, draw_figure
 from holdfast.interface.presentation.presentation import (
     Column,
     Fact,
@@ -68,7 +69,7 @@ def to_dict(trajectory: Trajectory) -> dict[str, Any]:
 def present(trajectory: Trajectory) -> Presentation:
     """Present whether the end effector stays on its path, the objective along it, and the events."""
     objective, arm = trajectory.objective, trajectory.arm
-    unit = "" if objective.unit in ("1", "mixed") else objective.unit
+    unit = display_unit(objective)
     worst_text = f"The worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}."
     if trajectory.on_path:
         answer = f"The end effector stays on its path (largest error {trajectory.tool_error}). {worst_text}"
@@ -101,7 +102,7 @@ def present(trajectory: Trajectory) -> Presentation:
         facts=_list_facts(trajectory, unit),
         tables=tables,
         figures={"motion": FigureSpec(partial(draw_figure, trajectory), on_page=False, saved=False)},
-        sections=lambda: TrajectorySections(trajectory).build(),
+        sections=partial(build_sections, trajectory),
         method=[
             ("Law", trajectory.method),
             ("Objective", f"{objective.name}, {objective.better} is better"),

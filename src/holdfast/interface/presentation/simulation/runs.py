@@ -21,8 +21,7 @@ from holdfast.kinematics.paths.joint_table import joint_columns
 
 def to_dict(runs: Runs) -> dict[str, Any]:
     """Return one run by name; for many runs each number is a list."""
-    arm = runs.law.arm
-    unit = "cycles" if runs.cycles else "s"
+    arm, unit = runs.law.arm, runs.unit
 
     def map_by_joint(values: Any) -> dict[str, Any]:
         return dict(zip(arm.joint_names, values.T, strict=True))

@@ -19,6 +19,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
+from holdfast.interface.presentation.indices.console import display_unit
 from holdfast.interface.presentation.presentation import (
     Column,
     Fact,
@@ -93,7 +94,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
 
 def present(optima: Optima, asked: str = "") -> Presentation:
     """Present the gain of the best configurations; ``asked`` is the objective as worded on the command line."""
-    rows, name, unit = optima.rows, optima.objective.name, _display_unit(optima)
+    rows, name, unit = optima.rows, optima.objective.name, display_unit(optima.objective)
     is_solved, reference, is_single = rows.success, f"the {_name_reference(optima)}", len(rows.poses) == 1
     before, after = (
         float(np.median(values[is_solved])) if is_solved.any() else np.nan for values in (rows.value_before, rows.value)
@@ -164,7 +165,7 @@ def present(optima: Optima, asked: str = "") -> Presentation:
 
 def _compose_answer(optima: Optima, before: float, after: float) -> str:
     """Compose the answer from the medians of the objective over the poses."""
-    rows, unit = optima.rows, _display_unit(optima)
+    rows, unit = optima.rows, display_unit(optima.objective)
     before_text, after_text = (format_value(value, unit=unit) for value in (before, after))
     reference, is_solved, has_many_poses = f"the {_name_reference(optima)}", rows.success, len(rows.poses) > 1
     subject = f"the median of {optima.objective.name}" if has_many_poses else optima.objective.name
@@ -292,10 +293,6 @@ def _format_failure_sets(failures: Sequence[Sequence[int]]) -> str:
 
 def _status_name(status: Any) -> str:
     return Status(int(status)).name.lower()
-
-
-def _display_unit(optima: Optima) -> str:
-    return "" if optima.objective.unit in ("1", "mixed") else optima.objective.unit
 
 
 def _name_reference(optima: Optima) -> str:
