@@ -12,8 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.control.equilibria import Curves, EquilibriumCurve
-from holdfast.interface.presentation.equilibria.curves import KIND_STYLES
-from holdfast.interface.report import INK, WIDTH_IN, save_png, settle_layout, style
+from holdfast.interface.report import INK, KIND_STYLES, WIDTH_IN, save_png, settle_layout, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 

@@ -71,9 +71,9 @@ def some_figures() -> list[Figure]:
         box=np.array([[0, 0, 0], [1, 1, 1.0]]),
     )
     return [
-        cdf_figure(curves, marks, "value", ylabel="share", title="title"),
+        cdf_figure(curves, marks, "value", ylabel="share"),
         distribution_figure(
-            Bin(x[::7], np.ones(7), "", ylabel="density"),
+            Bin(x[::7], np.ones(7), "density"),
             curves,
             marks,
             xlabel="value",

@@ -48,6 +48,7 @@ from holdfast.interface.report.palette import EMPTY_COLOR as EMPTY_COLOR
 from holdfast.interface.report.palette import FAINT as FAINT
 from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
+from holdfast.interface.report.palette import KIND_STYLES as KIND_STYLES
 from holdfast.interface.report.palette import ORANGE as ORANGE
 from holdfast.interface.report.palette import SKY as SKY
 from holdfast.interface.report.palette import SOFT as SOFT

@@ -196,8 +196,6 @@ class Bin:
 
     edges: FloatArray
     heights: FloatArray
-    label: str
-    _: KW_ONLY
     ylabel: str
 
 
@@ -229,7 +227,7 @@ def draw_cdf(
 
 def draw_histogram(axes: Axes, histogram: Bin, marks: Sequence[Mark], xlabel: str, log: bool = False) -> None:
     """Draw a histogram, and vertical marks, into axes."""
-    axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY, label=histogram.label)
+    axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY)
     axes.stairs(histogram.heights, histogram.edges, color=BLUE, linewidth=0.8)
     _draw_marks(axes, marks)
     max_height = float(histogram.heights.max(initial=0.0))
@@ -256,21 +254,11 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )
 
 
-def cdf_figure(
-    curves: Sequence[Curve],
-    marks: Sequence[Mark],
-    xlabel: str,
-    *,
-    ylabel: str,
-    title: str = "",
-    log: bool = False,
-    width: float = 5.4,
-) -> Figure:
+def cdf_figure(curves: Sequence[Curve], marks: Sequence[Mark], xlabel: str, *, ylabel: str) -> Figure:
     """Plot cumulative distributions in one panel."""
-    with styled_figure(width, 3.9) as figure:
+    with styled_figure(0.8 * WIDTH_IN, 3.9) as figure:
         axes = figure.add_subplot()
-        draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
-        axes.set_title(title)
+        draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel)
         legend_below(figure, axes)
     return figure
 
@@ -335,14 +323,10 @@ def bar_figure(
     total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:
-    """Plot horizontal bars, the first one on top, each with its count and fraction.
+    """Plot horizontal bars, the first one on top, each with its count and its fraction of ``total``, by default their sum.
 
-    Args:
-        names: Name of each bar.
-        counts: Count of each bar; counts that are not integers (sums of weights) are printed with four digits.
-        xlabel: Label of the count axis.
-        total: Count that corresponds to 100 %; the sum of the counts if None.
-        stress: Draw the longest bar (``most``) or the shortest bar (``least``) darker.
+    The longest bar (``most``) or the shortest one (``least``) is darker. Counts that are not integers (sums of weights) are
+    printed with four digits.
     """
     denominator = sum(counts) if total is None else total
     max_count = max(counts, default=0) or 1
@@ -353,7 +337,7 @@ def bar_figure(
         axes.barh(range(len(names)), counts, height=0.64, color=colors)
         texts = [f"{count:{',' if isinstance(count, int) else ',.4g'}}" for count in counts]
         fractions = [f" ({format_percent(count / denominator)})" if denominator else "" for count in counts]
-        label_bars(axes, names, counts, map(str.__add__, texts, fractions))
+        label_bars(axes, names, counts, texts=map(str.__add__, texts, fractions))
         axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18))
         if all(isinstance(bar_count, int) for bar_count in counts):
             axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
@@ -362,7 +346,7 @@ def bar_figure(
     return figure
 
 
-def label_bars(axes: Axes, names: Sequence[str], ends: Iterable[float], texts: Iterable[str], max_letters: int = 40) -> None:
+def label_bars(axes: Axes, names: Sequence[str], ends: Iterable[float], *, texts: Iterable[str], max_letters: int = 40) -> None:
     """Write the names next to horizontal bars, the first one on top, and a text at the end of each."""
     for position, (end, text) in enumerate(zip(ends, texts, strict=True)):
         axes.annotate(text, (end, position), (4, 0), textcoords="offset points", va="center", fontsize=9)

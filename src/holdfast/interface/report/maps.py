@@ -62,15 +62,10 @@ def share_figure(
     bins: int = 6,
     weights: FloatArray | None = None,
 ) -> Figure:
-    """Map the fraction of points with a property over a projection, one panel per property, all on one scale from 0 to 1.
+    """Map the fraction of points (N, 3), m, with a property over a projection, all panels on one scale from 0 to 1.
 
-    Args:
-        points: (N, 3) points, m.
-        panels: Title and flags (N,) of the points with the property. A cell shows the fraction and its number of points.
-        view: Projection.
-        label: Label of the colour bar.
-        bins: Number of cells along the longer edge.
-        weights: (N,) weights of the points, at least 0; equal weights if None.
+    Each panel has a title and the flags (N,) of the points with the property. A cell shows the fraction and its number of
+    points; there are ``bins`` cells along the longer edge. Points count by ``weights`` (N,), which are equal if None.
     """
     cell_maps = [_average_cells(title, points, flags.astype(float), view, bins, False, weights) for title, flags in panels]
     return _draw_maps([cell_maps], WIDTH_IN, Scale(0.0, 1.0, pale=True), label, False)

@@ -112,15 +112,8 @@ def draw_view(
 ) -> None:
     """Draw a scene in projection, with equal axes.
 
-    Args:
-        axes: Axes to draw into.
-        scene: Scene to draw.
-        view: Projection.
-        scale: Colour scale of the values.
-        dot_area: Area of a dot, square points (1/72 inch).
-        spans: Lengths of the horizontal and vertical axis, m.
-        width: Approximate width of the panel, inches.
-        center: (3,) point in the middle of the panel, m; that of the scene if None.
+    The axes have the lengths ``spans``, m, and the point ``center`` (3,), m, in their middle, by default that of the scene. The
+    panel is about ``width`` inches wide, and ``dot_area`` is in square points (1/72 inch).
     """
     if len(scene.missing):
         x, y = view.project(scene.missing).T
@@ -231,12 +224,7 @@ def _place_label(line: FloatArray, occupied: FloatArray, position: FloatArray, t
 def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
     """Plot projections side by side, all on one scale, with a colour bar if there are values.
 
-    Args:
-        scene: Scene to draw.
-        views: Projection of each panel.
-        scale: Colour scale of the values.
-        label: Label of the colour bar.
-        legend: Kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and text of each legend entry.
+    The legend has a kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and a text for each entry.
     """
     panel_width = 4.1 if len(views) > 1 else 5.0
     spans, height = fit_view_spans(scene.extent, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
@@ -273,10 +261,7 @@ def label_color_bar(colorbar: Colorbar, label: str, scale: Scale) -> None:
 def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
     """Choose the area of a dot, in square points, so that the dots cover about two thirds of their region.
 
-    Args:
-        scene: Scene with the dots.
-        views: Projections of all panels.
-        scale: Scale of the figure, inches per metre.
+    ``scale`` is the scale of the figure, inches per metre.
     """
     dots = np.concatenate([scene.points, scene.missing])
     if len(dots) < 2:

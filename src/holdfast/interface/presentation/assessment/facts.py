@@ -166,4 +166,4 @@ class AssessmentFacts(ThresholdAnswer):
         fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))
         width = np.diff(np.log10(edges)) if self.is_logarithmic else np.diff(edges)
         density_unit = "per decade" if self.is_logarithmic else self.unit_suffix and f"per{self.unit_suffix}"
-        return report.Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())
+        return report.Bin(edges, fraction / width, f"probability density {density_unit}".strip())

@@ -76,20 +76,9 @@ def present_proof(
 ) -> Presentation:
     """Present a proof: the proved and the undecided fraction of the claim, and whether it is verified.
 
-    Args:
-        proof: The proof.
-        title: Title of the report.
-        answer: Sentence with the proved and the undecided fraction; a sentence on the verification is appended.
-        fraction_phrase: Phrase after the proved fraction that names the whole.
-        cell_phrase: Phrase that describes the cells.
-        facts: Further facts.
-        list_tables: Function that builds further tables.
-        gaps: Undecided intervals of each part, for the table of parts.
-        figures: Figures by name.
-        method: Entries on how the claim is proved, and on its limits.
-        check: Result of the verifier, or None; its numbers replace those of the prover.
-        file: File of the certificate.
-        ranges: Working ranges found by sampling, or None.
+    The phrases follow the proved fraction and the number of cells; ``gaps`` are the undecided intervals of each part. The
+    numbers of ``check``, the result of the verifier, replace those of the prover. ``file`` is the file of the certificate, and
+    ``ranges`` are working ranges found by sampling.
     """
     document, is_refuted = _certificate(proof), isinstance(proof, Refutation | ManipulabilityBound) and proof.refuted
     whole = find_proved_fraction(proof, check)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -36,16 +37,10 @@ def to_dict(designs: Designs) -> dict[str, Any]:
     """Return the baseline arm and the best design as JSON data, in rad, m, and fractions."""
 
     def describe_arm(number: int, checked: HeldOutResult) -> dict[str, Any]:
-        guaranteed = checked.guaranteed
         return {
             "values": dict(zip(designs.space.names, designs.values[number].tolist(), strict=True)),
             "guaranteed_in_search": float(designs.guaranteed[number]),
-            "guaranteed": {
-                "value": guaranteed.value,
-                "low": guaranteed.low,
-                "high": guaranteed.high,
-                "confidence": guaranteed.confidence,
-            },
+            "guaranteed": asdict(checked.guaranteed),
             "median": float(checked.distribution.quantile(0.5, reachable_only=False)),
             "reached": 1 - checked.distribution.unreached_share,
             "reach": float(designs.reach[number]),

@@ -16,7 +16,7 @@ from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.equilibria import points as points_of
-from holdfast.interface.presentation.equilibria.curves import KIND_STYLES, break_at_angle_wraps, display_values, label_axis
+from holdfast.interface.presentation.equilibria.curves import break_at_angle_wraps, display_values, label_axis
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
 
 # Pale colours of basins, which differ in hue and lightness.
@@ -142,7 +142,7 @@ def _draw_bars(basins: Basins, caption: str) -> report.Figure:
         errors = [percentages - lower, upper - percentages]
         style = {"fmt": "none", "ecolor": report.INK, "elinewidth": 1.0, "capsize": 3}
         axes.errorbar(percentages, range(len(names)), xerr=errors, **style)
-        report.label_bars(axes, names, upper, [f"{percentage:.1f} %" for percentage in percentages])
+        report.label_bars(axes, names, upper, texts=[f"{percentage:.1f} %" for percentage in percentages])
         axes.set(xlabel="fraction of start configurations, %", xlim=(0, 112))
         text = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
         figure.supxlabel(report.format_label(text, 200), fontsize=9, color=report.SOFT)
@@ -170,7 +170,7 @@ def _draw_map(basins: Basins, shape: tuple[int, ...], caption: str) -> report.Fi
         positions = np.stack([display_values(arm, points.q, joint) for joint in joints], axis=1)
         for index in np.flatnonzero(~points.continuum):
             kind, position, name = points.kinds[index], positions[index], f"{points.kinds[index]} {index + 1}"
-            color, _, _, marker = KIND_STYLES[kind]
+            color, _, _, marker = report.KIND_STYLES[kind]
             axes.plot(*position, marker, color=color, markersize=8, markeredgecolor="white", markeredgewidth=1.0)
             if name in names:
                 axes.annotate(name, position.tolist(), (7, 6), textcoords="offset points", fontsize=9, color=report.INK)
@@ -183,7 +183,7 @@ def _draw_map(basins: Basins, shape: tuple[int, ...], caption: str) -> report.Fi
             report.Patch(color=color, label=report.format_label(name)) for color, name in zip(colors, names, strict=True)
         ]
         for kind in sorted(unnamed):
-            color, _, _, marker = KIND_STYLES[kind]
+            color, _, _, marker = report.KIND_STYLES[kind]
             handles.append(report.Line2D([], [], marker=marker, color=color, linestyle="none", label=kind))
         if len(basins.boundaries):
             handles.append(report.Line2D([], [], color=report.INK, linewidth=0.9, label="basin boundary (into a saddle)"))

@@ -20,21 +20,12 @@ from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
-from holdfast.interface.report.palette import PURPLE
 from holdfast.model.arm.model import Arm
 
 # Number of cells of the locked value, and of samples per cell, that show where the target is within reach
 _REACH_CELLS = 360
 _SAMPLES_PER_CELL = 16
 _MAX_SHOWN_JOINTS = 3
-# Colour, line width, line style and marker of each kind; sinks stand out.
-KIND_STYLES: dict[str, tuple[str, float, str, str]] = {
-    "solution": (report.GREEN, 1.6, "-", "o"),
-    "sink": (report.ORANGE, 3.0, "-", "v"),
-    "saddle": (report.BLUE, 1.3, "-", "X"),
-    "source": (PURPLE, 1.3, "--", "^"),
-    "degenerate": (report.INK, 1.3, ":", "s"),
-}
 _REACHABLE_COLOR = "#e3f1ec"
 
 
@@ -209,7 +200,7 @@ def _draw_curves(curves: Curves) -> report.Figure:
             if chosen.any():
                 locked_values = display_values(arm, surface_points.q[chosen], joint)
                 drawn_kinds.add(kind)
-                color, _, _, marker = KIND_STYLES[kind]
+                color, _, _, marker = report.KIND_STYLES[kind]
                 for axes, panel_values in zip(panels, list_panel_values(surface_points, chosen), strict=True):
                     axes.plot(locked_values, panel_values, marker, color=color, markersize=2.5, linestyle="none", alpha=0.7)
         for panel, (axes, label) in enumerate(zip(panels, labels, strict=True)):
@@ -221,7 +212,7 @@ def _draw_curves(curves: Curves) -> report.Figure:
         if panels[-1].get_xlabel().endswith("deg"):
             panels[-1].xaxis.set_major_locator(MultipleLocator(30))
         handles: list[report.Line2D | report.Patch] = [
-            report.Line2D([], [], **get_line_style(kind), label=kind) for kind in KIND_STYLES if kind in drawn_kinds
+            report.Line2D([], [], **get_line_style(kind), label=kind) for kind in report.KIND_STYLES if kind in drawn_kinds
         ]
         handles += [report.Patch(color=_REACHABLE_COLOR, label="target within reach")] * bool(reached)
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
@@ -254,7 +245,7 @@ def _reachable_ranges(curves: Curves) -> tuple[FloatArray, list[tuple[float, flo
 
 def get_line_style(kind: str) -> dict[str, Any]:
     """Return the style of the line of a kind."""
-    color, width, dashes, _ = KIND_STYLES[kind]
+    color, width, dashes, _ = report.KIND_STYLES[kind]
     return {"color": color, "linewidth": width, "linestyle": dashes}
 
 

@@ -15,6 +15,7 @@ from holdfast.core.status import Status
 from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import tabulate_contacts
 from holdfast.interface.presentation.falls import motion
+from holdfast.interface.presentation.holding import hold_check
 from holdfast.interface.presentation.presentation import (
     Column,
     Fact,
@@ -66,10 +67,8 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
 def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> Presentation:
     """Present the fall, or the distribution of several falls.
 
-    Args:
-        fall: One fall or several.
-        compared: Falls from the same state under other conditions, by the name of the condition.
-        band: Falls from the same state without friction and with twice the friction.
+    ``compared`` are falls from the same state under other conditions, by the name of the condition, and ``band`` without
+    friction and with twice the friction.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
     is_falling = single and fall.outcome not in ("holds", "unknown")
@@ -188,11 +187,10 @@ def _tabulate_joints(fall: PowerLoss) -> TableSpec:
     arm, start_time = fall.arm, min(START_S, fall.duration)
     check = holds(arm, fall.q, free=fall.free, friction=Friction(**vars(fall.friction)), stops=fall.stops)
     accelerations = (fall.rates_at(start_time) - fall.rates) / start_time
-    torques = ["N" if joint.prismatic else "N m" for joint in arm.joints]
+    torques = [hold_check.format_torque_unit(joint) for joint in arm.joints]
     torque_columns = make_headers("gravity torque", "friction at rest", "margin", unit=torques)
     acceleration = Header("starts with", [f"{joint.unit}/s^2" for joint in arm.joints])
-    places = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops"}
-    notes = [places.get(int(stop), "") if k in fall.free else "held" for k, stop in enumerate(check.stop)]
+    notes = [hold_check.STOP_PHRASES[int(stop)] if k in fall.free else "held" for k, stop in enumerate(check.stop)]
     numbers = zip(check.torque, check.available, check.available - check.need, accelerations, strict=True)
     rows = [(name, *values, note) for name, values, note in zip(arm.joint_names, numbers, notes, strict=True)]
     return TableSpec("Joints at the power loss", ["joint", *torque_columns, acceleration, ""], rows)

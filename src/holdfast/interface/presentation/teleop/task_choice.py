@@ -96,12 +96,9 @@ def _draw_bank(choice: TaskChoice) -> report.Figure:
 
 
 def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
-    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
+    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png into a folder, which is created if it does not exist.
 
-    Args:
-        choice: Chosen tasks.
-        folder: Folder to write; it is created if it does not exist.
-        spec: Arm as named in the protocol: a built-in name or a file.
+    ``spec`` is the arm as named in the protocol: a built-in name or a file.
     """
     files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
     protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")

@@ -135,7 +135,7 @@ def _draw_figure(region: TolerantWorkspace) -> report.Figure:
         errors = np.abs(np.array([[lower], [upper]]) - region.size)
         axes.errorbar(region.size, last, xerr=errors, color=INK, capsize=3, linewidth=1)
         ends = [*list(sizes.values())[:-1], region.size + float(errors[1, 0])]
-        report.label_bars(axes, list(sizes), ends, [f"{size:.3g}" for size in sizes.values()], 30)
+        report.label_bars(axes, list(sizes), ends, texts=[f"{size:.3g}" for size in sizes.values()], max_letters=30)
         unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
         axes.set(xlabel=unit, xlim=(0, max(sizes.values()) * 1.2 or 1.0), title="Size")
         handles = [report.Patch(facecolor=color, label=label) for color, label in entries]
