@@ -48,8 +48,8 @@ def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPar
 def read_visual_parts(arm: Arm, meshes: bool = True) -> tuple[list[MeshPart], list[Missing]]:
     """Read the visual shapes of the links of an arm, in the frames of its bodies.
 
-    Returns the shapes that were read, and the shapes that are missing or not readable. With ``meshes=False``, all meshes count as missing, and only the file
-    of the arm is opened.
+    Returns the shapes that were read, and the shapes that are missing or not readable. With ``meshes=False``, all meshes count
+    as missing, and only the file of the arm is opened.
     """
     try:
         pieces, missing = read_pieces(arm, "visual", open_files=meshes)
