@@ -76,11 +76,6 @@ class AssessmentFacts(ThresholdAnswer):
         """Side and top view; only one of the two if all points lie in its plane."""
         return choose_side_and_top_views(self.scene[0].extent) or [SIDE_VIEW]
 
-    @property
-    def main_view(self) -> View:
-        """The first view."""
-        return self.views[0]
-
     @cached_property
     def is_logarithmic(self) -> bool:
         """True if the axis is logarithmic: smaller values are better, and the positive values span more than a factor of 20."""
