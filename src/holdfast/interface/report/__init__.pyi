@@ -1,7 +1,10 @@
 from matplotlib.axes import Axes as Axes
+from matplotlib.colors import to_rgb as to_rgb
 from matplotlib.figure import Figure as Figure
 from matplotlib.lines import Line2D as Line2D
 from matplotlib.patches import Patch as Patch
+from matplotlib.ticker import MaxNLocator as MaxNLocator
+from matplotlib.ticker import MultipleLocator as MultipleLocator
 
 from holdfast.core.formatting import insert_nonbreaking_spaces as insert_nonbreaking_spaces
 from holdfast.interface.report.figures import WIDTH_IN as WIDTH_IN

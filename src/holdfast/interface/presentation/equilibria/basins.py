@@ -8,8 +8,6 @@ from itertools import cycle
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_rgb
-from matplotlib.ticker import MultipleLocator
 
 from holdfast.control.equilibria.attraction import Basins
 from holdfast.control.equilibria.stability import Kind
@@ -161,7 +159,7 @@ def _draw_map(basins: Basins, shape: tuple[int, ...], caption: str) -> report.Fi
     left, right, below, above = np.stack([(lower - half_cells) * scale, (upper + half_cells) * scale]).T.ravel().tolist()
     with report.styled_figure(7.4, 6.6) as figure:
         axes = figure.add_subplot()
-        image = np.array([to_rgb(color) for color in colors])[cells.reshape(shape).T]
+        image = np.array([report.to_rgb(color) for color in colors])[cells.reshape(shape).T]
         axes.imshow(image, origin="lower", extent=(left, right, below, above), aspect="auto", interpolation="nearest")
         for q in basins.boundaries:
             boundary = [display_values(arm, q, joint) for joint in joints]
@@ -190,7 +188,7 @@ def _draw_map(basins: Basins, shape: tuple[int, ...], caption: str) -> report.Fi
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 5))
         for axis, label in zip((axes.xaxis, axes.yaxis), labels, strict=True):
             if label.endswith("deg"):
-                axis.set_major_locator(MultipleLocator(60))
+                axis.set_major_locator(report.MultipleLocator(60))
         figure.supxlabel(report.format_label(caption, 200), fontsize=9, color=report.SOFT)
     return figure
 

@@ -7,7 +7,6 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import MultipleLocator
 
 from holdfast.control.equilibria.curves import SAMPLE_RADIUS, Curves, EquilibriumCurve, merge_arcs
 from holdfast.control.equilibria.points import StationaryPoints
@@ -207,10 +206,10 @@ def _draw_curves(curves: Curves) -> report.Figure:
             axes.set(ylabel=label, xlim=(values[0], values[-1]))
             if panel and label.endswith("deg"):
                 axes.set_ylim(-180, 180)
-                axes.yaxis.set_major_locator(MultipleLocator(60))
+                axes.yaxis.set_major_locator(report.MultipleLocator(60))
         panels[-1].set_xlabel(label_axis(arm, joint))
         if panels[-1].get_xlabel().endswith("deg"):
-            panels[-1].xaxis.set_major_locator(MultipleLocator(30))
+            panels[-1].xaxis.set_major_locator(report.MultipleLocator(30))
         handles: list[report.Line2D | report.Patch] = [
             report.Line2D([], [], **get_line_style(kind), label=kind) for kind in report.KIND_STYLES if kind in drawn_kinds
         ]

@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from holdfast.core.formatting import format_count, format_percent, list_alternatives
 from holdfast.core.status import Status
@@ -16,7 +15,6 @@ from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
-from holdfast.interface.report.motions import draw_chain, show_view
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.solvers.joint_space import is_unlimited
 from holdfast.kinematics.solvers.self_motions import SelfMotion
@@ -245,8 +243,8 @@ def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[f
             for index, shade in enumerate(np.linspace(0.25, 1.0, len(chains))):
                 tool_color = report.ORANGE if index == len(chains) - 1 else ""
                 style = {"linewidth": 1.2 + 0.9 * shade, "alpha": 0.25 + 0.55 * shade, "node_size": 4.0}
-                draw_chain(axes, view.project(chains[index]), tool_color=tool_color, **style)
-            show_view(axes, view, 0.1)
+                report.motions.draw_chain(axes, view.project(chains[index]), tool_color=tool_color, **style)
+            report.motions.show_view(axes, view, 0.1)
         band = report.Patch(facecolor=report.SKY, alpha=0.55, label="lock keeps the target within reach")
         line = report.Line2D([], [], color=report.BLUE, linewidth=1.6, label="on the curve")
         handles = [*[band] * any(map(len, lock_ranges)), *[line] * bool(curves)]
@@ -283,7 +281,7 @@ def _draw_joint(
         curve_start += float(lengths[-1]) + _CURVE_GAP_FRACTION * total_length
     axes.set_ylim(lower - 0.03 * period, upper + 0.03 * period)
     axes.set_ylabel(report.format_label(f"{arm.joint_names[joint]}, {unit}", 26), rotation=0, ha="right", va="center")
-    axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 3, 6, 9, 10] if period > 100 else None))
+    axes.yaxis.set_major_locator(report.MaxNLocator(3, steps=[1, 3, 6, 9, 10] if period > 100 else None))
     axes.grid(axis="x", visible=False)
     if curves:
         axes.set_xlim(-0.01 * total_length, curve_start - _CURVE_GAP_FRACTION * total_length + 0.01 * total_length)
