@@ -58,7 +58,7 @@ def run_track(options: argparse.Namespace, track: str, problems: list[Problem], 
         if adapter.missing():
             print(f"{name} is skipped: {adapter.missing()}", file=sys.stderr)
         elif track not in adapter.tracks:
-            print(f"{name} is skipped on the track {track}, because it has its own robot model", file=sys.stderr)
+            print(f"{name} is skipped on the track {track}, which it does not support", file=sys.stderr)
         elif any((track, problem.name, name) not in done for problem in problems):
             planners[name] = adapter(robot, urdf)
             run_problem(planners[name], warm_up, find_goals(warm_up), options.seconds)  # compiles and imports

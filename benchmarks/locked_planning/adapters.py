@@ -265,14 +265,18 @@ class Roboplan(Planner):
 
 
 class Mplib(Planner):
-    """RRT-Connect and simplification of MPlib, without its timed trajectory."""
+    """RRT-Connect and simplification of MPlib, without its timed trajectory.
+
+    MPlib needs NumPy 1 and holdfast NumPy 2, so the meshes of holdfast's Panda are not available to it.
+    """
 
     package = module = "mplib"
+    tracks = ("spheres",)
 
     @classmethod
     def missing(cls) -> str:
         if not super().missing() and int(np.__version__.split(".")[0]) > 1:
-            return "it crashes with NumPy 2; run it in an environment of its own with: pip install mplib 'numpy<2' scipy"
+            return "it crashes with NumPy 2; run it in an environment of its own with: pip install mplib 'numpy<2' pyyaml"
         return super().missing()
 
     def __init__(self, robot: Json, urdf: Path) -> None:

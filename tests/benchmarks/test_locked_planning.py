@@ -352,7 +352,7 @@ def test_a_run_writes_the_table_resumes_and_finds_contradictions(files, monkeypa
 
 @pytest.mark.parametrize(
     ("words", "sentence"),
-    [(("--count", "0"), "count is 0; it must be 1 or more"), (("--seconds", "nan"), "seconds is nan; it must")],
+    [(("--count", "0"), "count is 0; it must be 1 or more"), (("--seconds", "nan"), "seconds is nan; it must be above 0")],
 )
 def test_numbers_out_of_bounds_are_refused(words, sentence, capsys):
     with pytest.raises(SystemExit):
