@@ -129,7 +129,7 @@ def soundness(chosen) -> str:
 def main() -> None:
     chosen = harness.options(__doc__)
     print(
-        "### W23: one search for a route of a Panda\n\nProblems of MotionBenchMaker with the spheres of VAMP, no lock; one search "
+        "### W23: one search for a route of a Panda\n\nProblems of MotionBenchMaker with the spheres of VAMP; one search "
         "and the shortening of its route, without the tables of the objects. Time of the thread, the planners in turns.\n\n"
         f"{searches(chosen)}\n\n{soundness(chosen)}"
     )

@@ -15,7 +15,7 @@ from holdfast.response.recovery.compiled.scene import MAX_JOINTS, MAX_PARTS, Com
 CHECK_SPACING_M = 0.05  # largest possible motion between the configurations that are checked before a proof
 _MAX_WAYPOINTS = 256  # as in route_search.cpp
 _MAX_NODES = 20_000  # nodes of each tree
-_MAX_SHORTCUT_FAILURES = 20  # shortcuts in a row that do not help, after which the route counts as short
+_MAX_SHORTCUT_FAILURES = 40  # shortcuts in a row that do not help, after which the route counts as short
 _TREE_STEP = 1.0  # length of a step of a tree if the joints have weight 1, rad
 
 
