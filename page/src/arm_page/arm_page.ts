@@ -6,13 +6,13 @@ import type { Part, Pose, Vector } from "../viewer/scene";
 import { findBody } from "../viewer/hulls";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
-import { View } from "../viewer/view";
 import { listJoints, readAddress, writeAddress, type Condition, type PageState } from "./address";
 import { ArmModel } from "./arm_model";
 import { Bars, nextCondition, type BarValues } from "./bars";
 import { reproduce, writeCommands, type Code } from "./commands";
 import type { ArmPageData, PrintedKernels } from "./data";
 import { relativeManipulability, worstJoint } from "./failures";
+import { PageView } from "./page_view";
 import { fillText, formatPercent, joinNames } from "./phrases";
 import { PoseHandle, type HandleActions } from "./pose_handle";
 import type { Step, StepClasses } from "./steps";
@@ -29,7 +29,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   worst = 0;
   touched = false;
   dragging = false;
-  readonly view: View;
+  readonly view: PageView;
   protected readonly overlay: Overlay;
   protected readonly bars: Bars;
   protected readonly handles: PoseHandle[] = [];
@@ -49,7 +49,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     private readonly stepClasses: StepClasses,
   ) {
     this.arm = new ArmModel(kernels, data.scene.joints, data.taskRows);
-    this.view = new View(box, canvas, data.scene, { frames: (q) => this.arm.frames(q).map((pose) => [...pose]), plain: true });
+    this.view = new PageView(box, canvas, data.scene, this.arm);
     this.overlay = new Overlay(this.view);
     this.controls = this.find(".step-controls") ?? document.createElement("div");
     const conditions = data.scene.locked.map((time): Condition => (time === null ? "healthy" : "locked"));
@@ -63,7 +63,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
       move: (pose) => this.moveTool(pose),
       end: () => this.endDrag(),
     });
-    this.sliders = new JointSliders(data.scene, Array.from(this.state.q), (q) => this.setConfiguration(q));
+    const names = data.scene.joints.map(({ name }) => name);
+    this.sliders = new JointSliders(data.scene, this.state.q, names, (q) => this.setConfiguration(q));
     this.steps = Object.fromEntries(Object.entries(stepClasses).map(([name, kind]) => [name, new kind(this)]));
   }
 
@@ -130,7 +131,9 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   private selectPartAt(point: number[]): void {
     const parts = this.data.scene.parts.filter((part) => part.joint !== undefined || part.object);
-    const found = findBody(this.view.placeParts(parts, this.view.frames()), (corner) => this.view.project(corner), point);
+    const poses = this.view.frames();
+    const bodies = parts.map((part) => ({ part, pose: this.view.placePart(part, poses) }));
+    const found = findBody(bodies, (corner) => this.view.project(corner), point);
     if (found) this.selectPart(found.part);
   }
 
@@ -209,9 +212,13 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Draw the picture and write the sentences. */
   draw(): void {
-    this.view.setConditions(this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)));
-    this.view.setGhosts(this.step.ghosts.map((q) => Array.from(q)), this.step.ghostColors);
-    this.view.pose(Array.from(this.step.configuration));
+    const { configuration, ghosts, ghostColors } = this.step;
+    this.view.show({
+      q: Array.from(configuration),
+      ghosts: ghosts.map((q) => Array.from(q)),
+      ghostColors,
+      conditions: this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)),
+    });
     const [headline, detail] = this.target === null ? this.step.sentences() : this.unreachedSentences();
     (this.find(".arm-headline") as HTMLElement).textContent = headline;
     (this.find(".arm-detail") as HTMLElement).textContent = detail;

@@ -4,7 +4,7 @@ import { createSvg, h } from "../dom";
 import { column, dot, place, rotation, sum, times } from "../viewer/algebra";
 import type { Pose, Vector } from "../viewer/scene";
 import { circle } from "../viewer/things";
-import type { View } from "../viewer/view";
+import type { PageView } from "./page_view";
 
 export interface HandleActions {
   begin?: () => void;
@@ -41,7 +41,7 @@ export class PoseHandle {
   private drag: Drag | null = null;
   private rotating = false;
 
-  constructor(private readonly view: View, private readonly options: HandleOptions, private readonly actions: HandleActions) {
+  constructor(private readonly view: PageView, private readonly options: HandleOptions, private readonly actions: HandleActions) {
     const className = `pose-handle ${options.className}`;
     this.button = h("button", { type: "button", class: className, "aria-label": options.labels[0], hidden: true });
     this.rings = createSvg("svg", { class: "view3d-overlay pose-rings", "aria-hidden": "true", hidden: "" });
@@ -76,7 +76,7 @@ export class PoseHandle {
     if (!this.rotating) return;
     [...this.rings.children].forEach((ring, k) => {
       const points = this.ringPoints(this.options.axes[k]).map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`);
-      ring.setAttribute("d", `M${points.join("L")}`);
+      ring.setAttribute("d", `M${points.join("L")}Z`);
     });
   }
 
@@ -90,7 +90,7 @@ export class PoseHandle {
 
   /** Movement of the ring at the pointer, pixels per rad. */
   private findTangent(axis: number): number[] {
-    const points = this.ringPoints(axis).slice(1);
+    const points = this.ringPoints(axis);
     const distance = ([x, y]: Vector): number => Math.hypot(x - this.pointer[0], y - this.pointer[1]);
     const nearest = points.reduce((best, point, k) => (distance(point) < distance(points[best]) ? k : best), 0);
     const [before, after] = [points.at(nearest - 1) as Vector, points[(nearest + 1) % points.length]];

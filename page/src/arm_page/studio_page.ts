@@ -11,6 +11,7 @@ import type { BarValues } from "./bars";
 import type { Code } from "./commands";
 import type { ArmPageData } from "./data";
 import { fillText } from "./phrases";
+import type { Playback } from "./playback";
 import type { PoseHandle } from "./pose_handle";
 import { numbersFromPose, poseFromNumbers } from "./pose_numbers";
 
@@ -24,13 +25,15 @@ export const MAX_FILE_BYTES = 4 << 20;
 
 /** What the studio asks of some steps. */
 export interface StudioStepParts {
-  /** Content of `StudioState.show`, and the time of its motion, s. */
+  /** Content of `StudioState.show`, and its motions. */
   show?: string;
-  time?: number;
+  playback?: Playback;
   /** Whether the step has a target, with a handle. */
   hasTarget?: boolean;
   /** Compute what the step shows. */
   run?: () => Promise<void>;
+  /** Discard a result that another configuration, condition, or position of an object has made obsolete. */
+  discard?: () => void;
   /** Show a new answer to the question `reading`. */
   showReading?: () => void;
   choosePoint?: (index: number) => void;
@@ -47,6 +50,8 @@ export class StudioPage extends ArmPage<StudioPageData> {
   private asking = false;
   private askedState = "";
   private job: AbortController | null = null;
+  /** What the result of a step depends on. */
+  private resultBasis = "";
   private readonly status = h("p", { class: "studio-status", role: "status" });
   private readonly progress = h("progress", { "aria-label": this.data.texts.studio_progress });
   private readonly cancelButton = h("button", { type: "button", onclick: () => this.cancel() }, this.data.texts.studio_cancel);
@@ -101,13 +106,16 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   /** The view, as the server reads it. */
   get studioState(): StudioState {
-    const { show = "arm", time = 0 } = this.parts;
+    const { show = "arm", playback } = this.parts;
+    const time = playback?.motions.length ? playback.player.time : 0;
     return { ...this.studio, q: Array.from(this.state.q), conditions: [...this.state.conditions], show, time };
   }
 
-  /** What the results of a step depend on. */
-  get resultKey(): string {
-    return JSON.stringify([Array.from(this.state.q), this.state.conditions, this.studio.moved]);
+  /** Return the time, s, at which the command line shows the first motion, and 0 after that. */
+  takeTime(): number {
+    const { time } = this.studio;
+    this.studio.time = 0;
+    return time;
   }
 
   createMenu(label: string, options: string[], selected: string, choose: (option: string) => void): HTMLLabelElement {
@@ -121,6 +129,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   protected override openStep(name: string): void {
     this.cancel();
     this.report("");
+    this.resultBasis = "";
     super.openStep(name);
   }
 
@@ -170,6 +179,9 @@ export class StudioPage extends ArmPage<StudioPageData> {
   }
 
   protected override update(): void {
+    const basis = JSON.stringify([Array.from(this.state.q), this.state.conditions, this.studio.moved]);
+    if (basis !== this.resultBasis) this.parts.discard?.();
+    this.resultBasis = basis;
     super.update();
     void this.askReading();
   }
@@ -295,7 +307,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   protected override selectPart(part: Part): void {
     if (!part.object) return super.selectPart(part);
-    const chosen = this.view.objects.indexOf(part) + 1;
+    const chosen = this.view.objectIndex(part) + 1;
     this.objectMenu.selectedIndex = this.objectMenu.selectedIndex === chosen ? 0 : chosen;
     this.afterPicture();
   }

@@ -1,6 +1,6 @@
 /** Draws triangles, lines and dots with WebGL. One for all views of a page: browsers keep only a few contexts alive. */
 
-import type { Body, Lines, Picture, Renderer } from "./renderer";
+import type { Body, Picture, Renderer } from "./renderer";
 import type { Part, Vector } from "./scene";
 import { triangles } from "./shapes";
 
@@ -134,54 +134,57 @@ export class Painter implements Renderer {
     onto.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
   }
 
-  private use(name: "solid" | "line" | "dot"): void {
+  /** Select a program, with values of its uniform variables. */
+  private use(name: "solid" | "line" | "dot", values: Record<string, number[]>): void {
     this.program = this.programs[name];
     this.gl.useProgram(this.program);
-    this.gl.uniformMatrix4fv(this.uniform("seen"), false, (this.picture as Picture).matrix);
+    this.set({ seen: (this.picture as Picture).matrix, ...values });
   }
 
-  private uniform(name: string): WebGLUniformLocation | null {
-    return this.gl.getUniformLocation(this.program, name);
+  /** Set uniform variables: numbers, vectors, and matrices. */
+  private set(values: Record<string, number[] | Float32Array>): void {
+    for (const [name, value] of Object.entries(values)) {
+      const at = this.gl.getUniformLocation(this.program, name);
+      if (value.length > 3) this.gl.uniformMatrix4fv(at, false, value);
+      else this.gl[`uniform${value.length as 1 | 2 | 3}fv`](at, value);
+    }
   }
 
-  private attributes(layout: [string, number][]): void {
+  /** Describe the numbers of each vertex in the buffer, and return how many there are. */
+  private attributes(layout: [string, number][]): number {
     const gl = this.gl;
-    const stride = 4 * layout.reduce((n, [, size]) => n + size, 0);
+    const count = layout.reduce((n, [, size]) => n + size, 0);
     let offset = 0;
     for (let k = 0; k < 3; k++) gl.disableVertexAttribArray(k);
     for (const [name, size] of layout) {
       const at = gl.getAttribLocation(this.program, name);
       if (at >= 0) {
         gl.enableVertexAttribArray(at);
-        gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
+        gl.vertexAttribPointer(at, size, gl.FLOAT, false, 4 * count, offset);
       }
       offset += 4 * size;
     }
+    return count;
   }
 
   /** Bodies, each where a pose puts it. See-through ones hide what is behind their own front. */
   solids(bodies: Body[], opacity = 1): void {
     const gl = this.gl;
     const { eye, up, right, palette } = this.picture as Picture;
-    this.use("solid");
-    gl.uniform3fv(this.uniform("eye"), eye);
-    gl.uniform3fv(this.uniform("up"), up);
-    gl.uniform3fv(this.uniform("side"), right);
-    gl.uniform1f(this.uniform("opacity"), opacity);
-    const pose = this.uniform("pose");
-    const color = this.uniform("color");
+    this.use("solid", { eye, up, side: right, opacity: [opacity] });
     // Where a see-through body is at the place of a solid one, the solid one is seen.
     if (opacity < 1) gl.enable(gl.POLYGON_OFFSET_FILL);
     else gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 8);
     for (const painted of opacity < 1 ? [false, true] : [true]) {
       gl.colorMask(painted, painted, painted, painted);
-      for (const body of bodies) {
-        const count = this.bind(body.part);
+      for (const { part, pose: m, color } of bodies) {
+        const count = this.bind(part);
         this.attributes([["place", 3], ["normal", 3]]);
-        const m = body.pose;
-        gl.uniformMatrix4fv(pose, false, [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]));
-        gl.uniform3fv(color, palette.dark ? body.color.map((x) => 0.25 + 0.75 * x) : body.color);
+        this.set({
+          pose: [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]),
+          color: palette.dark ? color.map((x) => 0.25 + 0.75 * x) : color,
+        });
         gl.drawArrays(gl.TRIANGLES, 0, count);
       }
     }
@@ -200,8 +203,7 @@ export class Painter implements Renderer {
     return shape.length / 6;
   }
 
-  lines({ points, color, width, opacity = 1 }: Lines): void {
-    const gl = this.gl;
+  lines(points: Vector[], color: Vector, width: number, opacity = 1): void {
     const data: number[] = [];
     for (let k = 0; k + 1 < points.length; k += 2) {
       const [a, b] = [points[k], points[k + 1]];
@@ -209,28 +211,22 @@ export class Painter implements Renderer {
       const corners = [[...a, ...b, 1], [...a, ...b, -1], [...b, ...a, 1], [...b, ...a, -1]];
       for (const j of [0, 1, 2, 0, 2, 3]) data.push(...corners[j]);
     }
-    if (!data.length) return;
-    this.use("line");
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
-    this.attributes([["place", 3], ["other", 3], ["side", 1]]);
-    const { width: right, height: down } = (this.picture as Picture).onto.canvas;
-    gl.uniform2fv(this.uniform("pixels"), [right / 2, down / 2]);
-    gl.uniform1f(this.uniform("width"), width / 2);
-    gl.uniform3fv(this.uniform("color"), color);
-    gl.uniform1f(this.uniform("opacity"), opacity);
-    gl.drawArrays(gl.TRIANGLES, 0, data.length / 7);
+    const { onto: { canvas }, ratio } = this.picture as Picture;
+    const pixels = [canvas.width / 2, canvas.height / 2];
+    this.use("line", { pixels, width: [(width * ratio) / 2], color, opacity: [opacity] });
+    this.drawOnce(data, [["place", 3], ["other", 3], ["side", 1]], this.gl.TRIANGLES);
   }
 
   dots(points: Vector[], colors: Vector[], width: number): void {
-    if (!points.length) return;
+    this.use("dot", { width: [width * (this.picture as Picture).ratio] });
+    this.drawOnce(points.flatMap((p, k) => [...p, ...colors[k]]), [["place", 3], ["paint", 3]], this.gl.POINTS);
+  }
+
+  private drawOnce(data: number[], layout: [string, number][], mode: number): void {
     const gl = this.gl;
-    this.use("dot");
     gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(points.flatMap((p, k) => [...p, ...colors[k]])), gl.DYNAMIC_DRAW);
-    this.attributes([["place", 3], ["paint", 3]]);
-    gl.uniform1f(this.uniform("width"), width);
-    gl.drawArrays(gl.POINTS, 0, points.length);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
+    gl.drawArrays(mode, 0, data.length / this.attributes(layout));
   }
 
   /** Whatever is drawn next hides nothing, and is hidden by nothing, or as usual again. */

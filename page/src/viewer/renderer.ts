@@ -13,6 +13,8 @@ export interface Picture {
   up: Vector;
   right: Vector;
   palette: Palette;
+  /** Pixels of the canvas for a CSS pixel. */
+  ratio: number;
 }
 
 export interface Body {
@@ -22,19 +24,13 @@ export interface Body {
   color: Vector;
 }
 
-/** One colour, `width` in pixels; two points a segment. */
-export interface Lines {
-  points: Vector[];
-  color: Vector;
-  width: number;
-  opacity?: number;
-}
-
 export interface Renderer {
   /** Whether near shapes hide those behind them in any order; otherwise a shape covers those before it. */
   readonly hidesFarther: boolean;
   solids(bodies: Body[], opacity?: number): void;
-  lines(lines: Lines): void;
+  /** Draw segments between pairs of points; `width` in CSS pixels. */
+  lines(points: Vector[], color: Vector, width: number, opacity?: number): void;
+  /** Draw discs; `width` in CSS pixels. */
   dots(points: Vector[], colors: Vector[], width: number): void;
   /** Subsequent shapes cover all others while this is on. */
   over(on: boolean): void;
