@@ -4,7 +4,7 @@ import { h, paragraphs } from "../dom";
 import type { Texts } from "../texts";
 
 export class Frame {
-  /** Where jsPsych shows its screens. */
+  /** Where the screens are shown, one after the other. */
   readonly stage = h("main", { id: "stage", "data-testid": "stage" });
   private readonly where = h("span", { class: "where", "data-testid": "progress" });
   private readonly who = h("span", { class: "who", "data-testid": "subject" });
