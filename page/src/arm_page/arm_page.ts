@@ -93,6 +93,11 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     return listJoints(this.state.conditions, "locked", "free");
   }
 
+  /** Whether a motion of the joints is left that keeps the tool where it is. */
+  get hasSelfMotion(): boolean {
+    return this.failed.length < this.arm.redundancy;
+  }
+
   /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
   get controlTarget(): Vector {
     const { story } = this.data;
@@ -145,7 +150,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   private selectCondition(joint: number, condition: Condition): void {
     this.touched = true;
     this.setCondition(joint, condition);
-    if (this.state.step === "healthy" || this.state.step === "prepare") this.openStep("lock");
+    const { step } = this.state;
+    if (step === "healthy" || step === "prepare") this.openStep(step === "prepare" && this.hasSelfMotion ? step : "lock");
     else this.update();
   }
 

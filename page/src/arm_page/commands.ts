@@ -52,6 +52,7 @@ function writeCode(data: ArmPageData, state: PageState, worst: number, target: V
         `print(np.linalg.svd(N[[${failed.join(", ")}]])[1])`,
       ) };
     case "prepare":
+      if (failed.length) return index;
       return {
         shell: `holdfast optimise ${data.argument} --at=${numbers} --maximise relative-manipulability --task ${data.taskName}`,
         python: python(`print(hf.optimise(arm, arm.forward_kinematics(q), ${measure}, initial=q).value)`),

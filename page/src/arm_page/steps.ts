@@ -152,28 +152,28 @@ export class PrepareStep extends Step {
   private timer = 0;
   private input = this.slider("self_motion", 0, 1, 0, (index) => this.slide(index));
   private curve = h("div");
-  /** Vector of the null-space basis along which the arm moves; null for the direction in which the worst case rises. */
+  /** Direction of the self-motion; null for the one in which the worst case rises. */
   private direction: number | null = null;
 
   enter(): void {
-    this.page.repairAll();
-    this.motion = null;
+    if (!this.page.hasSelfMotion) this.page.repairAll();
+    [this.motion, this.direction] = [null, null];
     const best = this.button("go_to_best", () => this.goToBest());
-    const { redundancy } = this.page.arm;
-    const names = [this.text("steepest"), ...Array.from({ length: redundancy }, (_, k) => String(k + 1))];
-    const menu = this.menu("direction", names, (this.direction ?? -1) + 1, (index) => {
+    const directions = this.page.arm.redundancy - this.page.failed.length;
+    const names = [this.text("steepest"), ...Array.from({ length: directions }, (_, k) => String(k + 1))];
+    const menu = this.menu("direction", names, 0, (index) => {
       this.direction = index ? index - 1 : null;
       this.motion = null;
       this.page.changeConditions(() => undefined);
     });
-    this.page.controls.replaceChildren(this.curve, this.input, this.row(best, redundancy > 1 ? menu : null));
+    this.page.controls.replaceChildren(this.curve, this.input, this.row(best, directions > 1 ? menu : null));
   }
 
   update(): void {
-    const { arm, state } = this.page;
+    const { arm, state, failed } = this.page;
     if (this.motion?.configurations[this.index] === state.q) return this.showMotion(this.motion);
     this.computeWhenDue(() => {
-      this.motion = traceSelfMotion(arm, state.q, this.direction);
+      this.motion = traceSelfMotion(arm, state.q, failed, this.direction);
       this.index = this.motion.start;
       this.input.max = String(this.motion.configurations.length - 1);
       this.showMotion(this.motion);

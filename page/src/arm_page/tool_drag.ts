@@ -6,7 +6,7 @@ import type { ArmModel, Values } from "./arm_model";
 const MAX_STEPS = 30;
 const STARTS = 50;
 /** Largest error of a target that is reached: rad, and lengths in units of the arm's own length. */
-const REACHED_ERROR = 1e-6;
+export const REACHED_ERROR = 1e-6;
 /** Error from which on a further step only repeats rounding. */
 const ROUNDING_ERROR = 1e-12;
 
@@ -18,10 +18,17 @@ export interface ReachedTarget {
 }
 
 /** Move the tool from q towards a pose (12 numbers) by damped steps of the free joints, and keep the nearest configuration. */
-export function reachTarget(arm: ArmModel, q: Values, target: Values, free: Values, maxSteps = MAX_STEPS): ReachedTarget {
+export function reachTarget(
+  arm: ArmModel,
+  q: Values,
+  target: Values,
+  free: Values,
+  maxSteps = MAX_STEPS,
+  sufficientError = ROUNDING_ERROR,
+): ReachedTarget {
   let configuration: Float64Array = Float64Array.from(q);
   let [nearest, least] = [configuration, Infinity];
-  for (let steps = 0; steps <= maxSteps && least > ROUNDING_ERROR; steps++) {
+  for (let steps = 0; steps <= maxSteps && least > sufficientError; steps++) {
     const { next, error } = arm.stepTowards(configuration, target, free);
     if (error < least) [nearest, least] = [configuration, error];
     configuration = next;
