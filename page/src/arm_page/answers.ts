@@ -4,15 +4,10 @@ import type { Condition } from "./address";
 import type { Vector } from "../viewer/scene";
 import type { PlayedMotion } from "./playback";
 
-/** A view of the studio, with the fields of the Python class `State`. */
+/** A view of the studio: those fields of the Python class `State` that the page reads or changes. */
 export interface StudioState {
-  arm: string;
   names: string[];
   q: number[];
-  task: string;
-  base: string | null;
-  tip: string | null;
-  hold: [string, number][];
   conditions: Condition[];
   index: string;
   susceptibility: string;
@@ -24,8 +19,6 @@ export interface StudioState {
   file: string | null;
   region: string | null;
   time: number;
-  cell: string | null;
-  meshes: string | null;
   moved: [string, number[]][];
   /** Kind of the fault, joint, and its time, s. */
   fault: [string, string, number];

@@ -6,6 +6,9 @@ import { addScaled, dotProduct, stepRungeKutta, vectorNorm } from "./small_matri
 
 const CONTROL_STEP_S = 0.02;
 const DURATION_S = 12;
+/** Largest difference between a step and its halves, rad and m, and a step that is not halved again. */
+const STEP_ERROR = 1e-7;
+const SHORTEST_STEP_S = 2e-4;
 /** Distance from the target at which the motion ends, m. */
 const END_M = 0.001;
 
@@ -50,22 +53,19 @@ export function simulateControl(
     motion.q.push(state);
     motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
     if (vectorNorm(error) <= END_M) break;
-    state = stepAcrossSlowdown(rates, state, (next) => vectorNorm(errorAt(next)) - settings.speed / settings.gain);
+    state = advance(rates, state, CONTROL_STEP_S);
   }
   return motion;
 }
 
-/** Return the state after a step, which is split where the tool begins to slow down, because the velocity has a kink there. */
-function stepAcrossSlowdown(
-  derivative: (state: Float64Array) => Float64Array,
-  state: Float64Array,
-  distanceToSlowdown: (state: Float64Array) => number,
-): Float64Array {
-  const next = stepRungeKutta(derivative, state, CONTROL_STEP_S);
-  const [before, after] = [distanceToSlowdown(state), distanceToSlowdown(next)];
-  if (before > 0 === after > 0) return next;
-  const first = (CONTROL_STEP_S * before) / (before - after);
-  return stepRungeKutta(derivative, stepRungeKutta(derivative, state, first), CONTROL_STEP_S - first);
+/** Return the state after a duration; a step is halved until its halves agree with it, because damping and speed have kinks. */
+function advance(derivative: (state: Float64Array) => Float64Array, state: Float64Array, duration: number): Float64Array {
+  const whole = stepRungeKutta(derivative, state, duration);
+  const middle = stepRungeKutta(derivative, state, duration / 2);
+  const halves = stepRungeKutta(derivative, middle, duration / 2);
+  const error = vectorNorm(addScaled(halves, whole, -1));
+  if (error <= STEP_ERROR || duration < SHORTEST_STEP_S) return halves;
+  return advance(derivative, advance(derivative, state, duration / 2), duration / 2);
 }
 
 /** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */

@@ -3,7 +3,7 @@
 import { sum, transform, unit } from "./algebra";
 import { project } from "./camera";
 import { css } from "./palette";
-import type { Body, Picture, Renderer } from "./renderer";
+import type { Body, Picture } from "./renderer";
 import type { Part, Vector } from "./scene";
 import { vertices } from "./shapes";
 import { circle } from "./things";
@@ -97,15 +97,13 @@ function clearLayer(width: number, height: number): CanvasRenderingContext2D {
   return layer;
 }
 
-export class HullRenderer implements Renderer {
-  readonly hidesFarther = false;
+export class HullRenderer {
+  /** Whether near solids hide those behind them in any order; otherwise a solid covers those before it. */
+  readonly hidesFarther: boolean = false;
 
-  constructor(private readonly picture: Picture) {
+  constructor(protected readonly picture: Picture) {
     picture.onto.lineJoin = picture.onto.lineCap = "round";
   }
-
-  over(): void {}
-  finish(): void {}
 
   /** Corners of a body in pixels, and their mean distance before the eye, m; none if it extends behind the eye. */
   private place({ part, pose }: Body): { points: Point[]; depth: number } | null {
@@ -130,7 +128,8 @@ export class HullRenderer implements Renderer {
     return { points, depth };
   }
 
-  solids(bodies: Body[], opacity = 1): void {
+  /** Draw bodies; those that are over all others are the last ones. */
+  solids(bodies: Body[], opacity = 1, _over = false): void {
     const { onto, palette, ratio } = this.picture;
     const { width, height } = onto.canvas;
     const drawn = bodies.flatMap((body) => {
@@ -168,6 +167,7 @@ export class HullRenderer implements Renderer {
     onto.globalAlpha = 1;
   }
 
+  /** Draw segments between pairs of points; `width` in CSS pixels. */
   lines(points: Vector[], color: Vector, width: number, opacity = 1): void {
     const { matrix, onto, ratio } = this.picture;
     onto.beginPath();
@@ -183,6 +183,7 @@ export class HullRenderer implements Renderer {
     onto.stroke();
   }
 
+  /** Draw discs; `width` in CSS pixels. */
   dots(points: Vector[], colors: Vector[], width: number): void {
     const { matrix, onto, ratio } = this.picture;
     points.forEach((point, k) => {

@@ -5,7 +5,8 @@ import { Camera, project } from "./camera";
 import { listenToPointers } from "./gestures";
 import { FONT, writeLabels, type Label } from "./labels";
 import { choosePalette, css, type Palette } from "./palette";
-import { chooseRenderer, type Body, type Picture, type Renderer } from "./renderer";
+import type { HullRenderer } from "./hulls";
+import { chooseRenderer, type Body, type Picture } from "./renderer";
 import type { Part, Pose, Scene, Vector } from "./scene";
 import { cell, circle, edges, floor, joined, mark, triad } from "./things";
 
@@ -143,18 +144,12 @@ export class View {
     const renderer = chooseRenderer(scene, picture);
     const poses = this.configurations().map((q) => this.solve(q));
     renderer.lines(this.floor, palette.faint, 1);
-    const paintGhosts = (): void => {
-      for (let k = poses.length - 1; k > 0; k--) renderer.solids(this.bodies(k, poses[k], palette), 0.5);
-    };
-    if (!renderer.hidesFarther) paintGhosts();
-    renderer.solids(this.bodies(0, poses[0], palette));
+    // Without depths the opaque arm, which is the first one, is drawn last.
+    const order = renderer.hidesFarther ? poses.keys() : [...poses.keys()].reverse();
+    for (const k of order) renderer.solids(this.bodies(k, poses[k], palette), k ? 0.5 : 1);
     this.paintSurroundings(renderer, poses, palette);
-    if (renderer.hidesFarther) paintGhosts();
-    renderer.over(true);
-    renderer.solids(this.bodies(0, poses[0], palette, true), 0.75);
+    renderer.solids(this.bodies(0, poses[0], palette, true), 0.75, true);
     const labels = this.paintMarks(renderer, poses[0].at(-1) as Pose, palette);
-    renderer.over(false);
-    renderer.finish();
     labels.push(...this.armLabels(poses, palette), ...this.jointLabels(poses[0], palette));
     if (this.names) labels.push(...scene.objects.map(({ name, at }) => ({ text: name, at, color: palette.soft })));
     this.write(labels, picture);
@@ -196,7 +191,7 @@ export class View {
   }
 
   /** Draw boxes, paths, and points. */
-  private paintSurroundings(renderer: Renderer, poses: Pose[][], palette: Palette): void {
+  private paintSurroundings(renderer: HullRenderer, poses: Pose[][], palette: Palette): void {
     const { scene } = this;
     for (const box of scene.boxes) renderer.lines(edges(box), palette.soft, 1.4);
     renderer.lines(joined(scene.path), palette.orange, 1.8);
@@ -212,7 +207,7 @@ export class View {
   }
 
   /** Draw the axes of the tool, targets, and lost directions; return their labels. */
-  protected paintMarks(renderer: Renderer, tool: Pose, { orange, green, blue }: Palette): Label[] {
+  protected paintMarks(renderer: HullRenderer, tool: Pose, { orange, green, blue }: Palette): Label[] {
     const { scene, camera } = this;
     const labels: Label[] = [];
     const axes = triad(tool, 0.12 * scene.size);

@@ -162,8 +162,7 @@ def test_closed_loops_are_those_of_simulate(page_arm, rng, name, label):
         end = min(int(float(run.time) / STEP_S), len(time) - 1)
         path = run.path(samples=end + 1, until=time[end])
         np.testing.assert_allclose(q_page[: end + 1, joint], q[joint], rtol=0, atol=0)
-        # The damping of the failure-tolerant law has kinks and jumps within the steps.
-        tolerance = 1e-5 if label == "pseudoinverse" else 1e-3
+        tolerance = 5e-6
         np.testing.assert_allclose(trail[: end + 1], path.x, rtol=0, atol=tolerance)
         np.testing.assert_allclose(trail[end:], np.broadcast_to(trail[end], trail[end:].shape), rtol=0, atol=tolerance)
         assert abs(motion["deviation"] - distances_from_line(path.x, target).max()) < tolerance
