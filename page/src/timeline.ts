@@ -140,7 +140,7 @@ class Session {
     this.outcome = outcome;
     progress.trials += 1;
     progress.unrated = true;
-    frame.occupied = true;
+    frame.set({ occupied: true });
   }
 
   private async rating(): Promise<void> {
@@ -148,7 +148,7 @@ class Session {
     const rating = await showRating(this.stage, station, this.suggestedRating());
     station.progress.unrated = false;
     station.send({ type: "rate", rating, answers: {} });
-    station.frame.occupied = false;
+    station.frame.set({ occupied: false });
   }
 
   /** Rating of a trial in a dry run; longer trials are rated as more difficult. */

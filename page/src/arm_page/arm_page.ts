@@ -278,7 +278,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   protected addHandle(className: string, text: string, actions: HandleActions, axes = this.rotationAxes): PoseHandle {
     const { texts } = this.data;
     const labels: [string, string] = [texts[text], `${texts[text].split(".")[0]}. ${texts.handle_rotate}`];
-    const handle = new PoseHandle(this.view, { className, labels, axes }, actions);
+    const handle = new PoseHandle(this.view, className, labels, axes, actions);
     this.handles.push(handle);
     return handle;
   }

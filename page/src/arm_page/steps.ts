@@ -25,6 +25,8 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Configurations that the picture shows transparently. */
   ghosts: ArrayLike<number>[] = [];
   ghostColors: GhostColor[] = [];
+  /** Motions that the step shows, if it has some. */
+  readonly playback: Playback | null = null;
 
   constructor(protected readonly page: Page) {}
 
@@ -50,7 +52,9 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Compute what takes longer than a picture, after a drag. */
   rest(): void {}
   /** Stop animations, before another step. */
-  leave(): void {}
+  leave(): void {
+    this.playback?.close();
+  }
 
   /** Configuration that the picture shows. */
   get configuration(): ArrayLike<number> {
@@ -58,7 +62,7 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   }
 
   overlay(): OverlayContent {
-    return {};
+    return this.playback?.overlay ?? {};
   }
 
   protected text(key: string, values: Record<string, string | number> = {}): string {
@@ -238,7 +242,7 @@ export class PrepareStep extends Step {
 }
 
 export class UndetectedStep extends Step {
-  private readonly playback = new Playback(this.page, TRAIL_STYLES, () => {
+  override readonly playback = new Playback(this.page, TRAIL_STYLES, () => {
     this.ghosts = this.playback.configurations.slice(1);
     this.page.draw();
   });
@@ -275,10 +279,6 @@ export class UndetectedStep extends Step {
     this.playback.open(motions);
   }
 
-  override leave(): void {
-    this.playback.close();
-  }
-
   override get configuration(): ArrayLike<number> {
     return this.playback.configurations[0] ?? this.page.state.q;
   }
@@ -293,7 +293,7 @@ export class UndetectedStep extends Step {
   }
 
   override overlay(): OverlayContent {
-    return { ...this.playback.overlay, pointerLine: this.line ?? undefined };
+    return { ...super.overlay(), pointerLine: this.line ?? undefined };
   }
 }
 

@@ -11,7 +11,6 @@ import type { BarValues } from "./bars";
 import type { Code } from "./commands";
 import type { ArmPageData } from "./data";
 import { fillText } from "./phrases";
-import type { Playback } from "./playback";
 import type { PoseHandle } from "./pose_handle";
 import { numbersFromPose, poseFromNumbers } from "./pose_numbers";
 
@@ -25,9 +24,8 @@ export const MAX_FILE_BYTES = 4 << 20;
 
 /** What the studio asks of some steps. */
 export interface StudioStepParts {
-  /** Content of `StudioState.show`, and its motions. */
+  /** Content of `StudioState.show` once the step has a result. */
   show?: string;
-  playback?: Playback;
   /** Whether the step has a target, with a handle. */
   hasTarget?: boolean;
   /** Compute what the step shows. */
@@ -106,9 +104,15 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   /** The view, as the server reads it. */
   get studioState(): StudioState {
-    const { show = "arm", playback } = this.parts;
-    const time = playback?.motions.length ? playback.player.time : 0;
-    return { ...this.studio, q: Array.from(this.state.q), conditions: [...this.state.conditions], show, time };
+    const { playback } = this.step;
+    const isShown = playback === null || playback.motions.length > 0;
+    return {
+      ...this.studio,
+      q: Array.from(this.state.q),
+      conditions: [...this.state.conditions],
+      show: (isShown && this.parts.show) || "arm",
+      time: (isShown && playback?.player.time) || 0,
+    };
   }
 
   /** Return the time, s, at which the command line shows the first motion, and 0 after that. */

@@ -1,7 +1,6 @@
 /** Steps of the studio after the five steps of the page; the server computes what they show. */
 
 import { h } from "../dom";
-import type { OverlayContent } from "../viewer/overlay";
 import type { Answers, Cloud, Watch } from "./answers";
 import type { GhostColor } from "./page_view";
 import { saveFile, savePicture } from "./picture_file";
@@ -72,8 +71,8 @@ class ChooseStep extends StudioStep {
 
 /** A step with motions. */
 abstract class MotionStep extends StudioStep {
-  protected abstract readonly kind: string;
-  readonly playback: Playback;
+  abstract readonly show: string;
+  override readonly playback: Playback;
 
   constructor(page: StudioPage, colors: MotionColor[] = ["purple"]) {
     super(page);
@@ -82,10 +81,6 @@ abstract class MotionStep extends StudioStep {
       this.showTime();
       page.draw();
     });
-  }
-
-  get show(): string {
-    return this.playback.motions.length ? this.kind : "arm";
   }
 
   /** Show what belongs to the time of the player. */
@@ -99,14 +94,10 @@ abstract class MotionStep extends StudioStep {
     super.discard();
     this.playback.close();
   }
-
-  override overlay(): OverlayContent {
-    return this.playback.overlay;
-  }
 }
 
 class LawsStep extends MotionStep {
-  protected readonly kind = "laws";
+  readonly show = "laws";
   readonly hasTarget = true;
 
   constructor(page: StudioPage) {
@@ -209,7 +200,7 @@ class RegionStep extends StudioStep {
 }
 
 class WatchStep extends MotionStep {
-  protected readonly kind = "watch";
+  readonly show = "watch";
   readonly hasTarget = true;
   private watch: Watch | null = null;
   private readonly panels = h("div");
@@ -284,7 +275,7 @@ class WatchStep extends MotionStep {
 }
 
 class FileStep extends MotionStep {
-  protected readonly kind = "file";
+  readonly show = "file";
 
   enter(): void {
     const { state, objects } = this.page.data.studio;
@@ -348,14 +339,11 @@ class FileStep extends MotionStep {
 /** The step of the page, with dry friction and the fall that the server simulates. */
 class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
   private readonly forecast = h("p", { class: "bars-note" });
-  readonly playback = new Playback(this.page, ["purple"], () => {
+  readonly show = "fall";
+  override readonly playback = new Playback(this.page, ["purple"], () => {
     this.ghosts = this.playback.configurations;
     this.page.draw();
   });
-
-  get show(): string {
-    return this.playback.motions.length ? "fall" : "arm";
-  }
 
   override enter(): void {
     const kept = [...this.page.state.conditions];
@@ -392,14 +380,6 @@ class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
 
   discard(): void {
     this.playback.close();
-  }
-
-  override leave(): void {
-    this.discard();
-  }
-
-  override overlay(): OverlayContent {
-    return this.playback.overlay;
   }
 }
 
