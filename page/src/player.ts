@@ -2,9 +2,6 @@
 
 import { h } from "./dom";
 
-/** Texts of the button, before and while it plays, and of the slider. */
-type PlayerTexts = { play?: string; pause?: string; time?: string };
-
 const SHORTEST_PAUSE_MS = 30; // between two pictures
 
 export class Player {
@@ -17,9 +14,9 @@ export class Player {
   private speed = 1;
   private timer = 0;
 
-  /** `format` writes a time; `show` is called after a change of the shown time. */
+  /** `texts` are those of button and slider, `format` writes a time, and `show` is called after a change of the time. */
   constructor(
-    private readonly texts: PlayerTexts,
+    private readonly texts: { play?: string; pause?: string; time?: string },
     private readonly format: (time: number) => string,
     private readonly show: () => void,
   ) {

@@ -105,12 +105,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
   }
 
-  label(joint: number): string {
-    return this.data.jointLabels[joint];
-  }
-
   failedNames(): string {
-    return joinNames(this.failed.map((joint) => this.label(joint)));
+    return joinNames(this.failed.map((joint) => this.data.jointLabels[joint]));
   }
 
   repairAll(): void {

@@ -5,7 +5,7 @@ import { createSvg } from "../dom";
 export interface Curve {
   x: number[];
   y: number[];
-  /** Largest value of each axis; the axes begin at the first x and at 0. */
+  /** Largest value of the vertical axis, which begins at 0. */
   yMax: number;
   xLabel: string;
   yLabel: string;

@@ -2,7 +2,9 @@
 
 import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
-import { addScaled, columnNorms, combineRows, dotProduct, factorRows, findSingularValues, solveTransposed, vectorNorm, type Rows } from "./small_matrices";
+import {
+  addScaled, columnNorms, combineRows, dotProduct, factorRows, findSingularValues, solveTransposed, vectorNorm, type Rows,
+} from "./small_matrices";
 
 /** Norm up to which the projection of locked joints onto the motions of the task is rounding. */
 const NO_PROJECTION = 1e-9;
@@ -28,8 +30,9 @@ export interface LostMotion {
  */
 export function lostMotions(arm: ArmModel, q: Values, locked: readonly number[]): LostMotion[] {
   const { basis, lower } = factorRows(taskJacobian(arm, q));
-  const nullSpace = arm.nullSpace(q);
-  const fractions = findSingularValues(locked.map((joint) => nullSpace.map((motion) => motion[joint]))).slice(-arm.taskRows.length);
+  const selfMotions = arm.nullSpace(q);
+  const lockedRows = locked.map((joint) => selfMotions.map((motion) => motion[joint]));
+  const fractions = findSingularValues(lockedRows).slice(-arm.taskRows.length);
   return fractions.reverse().map(({ value, direction }) => {
     const projection = Float64Array.from(basis, (row) => dotProduct(locked.map((joint) => row[joint]), direction));
     const motion = solveTransposed(lower, projection);

@@ -42,8 +42,8 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
     let next = advance(state, step);
     const crossing = firstCrossing(arm, before, splitRows(next, 2)[0], free);
     if (crossing !== null) {
-      fall.limitJoint = crossing.joint;
-      step *= crossing.fraction;
+      fall.limitJoint = crossing[0];
+      step *= crossing[1];
       next = advance(state, step);
     }
     [time, state] = [time + step, next];
@@ -63,17 +63,12 @@ function dampingRate(arm: ArmModel, q: Values, free: Values): number {
 }
 
 /** Return the free joint that first crosses a limit between two configurations, and the fraction of the step; null for none. */
-function firstCrossing(
-  arm: ArmModel,
-  before: Float64Array,
-  after: Float64Array,
-  free: Values,
-): { joint: number; fraction: number } | null {
+function firstCrossing(arm: ArmModel, before: Float64Array, after: Float64Array, free: Values): [number, number] | null {
   const restricted = restrict(arm, after);
   const fractions = after.map((value, k) =>
     free[k] && value !== restricted[k] ? Math.max(0, (restricted[k] - before[k]) / (value - before[k])) : Infinity);
   const fraction = Math.min(...fractions);
-  return fraction < Infinity ? { joint: fractions.indexOf(fraction), fraction } : null;
+  return fraction < Infinity ? [fractions.indexOf(fraction), fraction] : null;
 }
 
 /** Return the configuration within the limits that is nearest to q. */

@@ -3,7 +3,7 @@
 import type { ArmModel, Values } from "./arm_model";
 import { relativeManipulability } from "./failures";
 import { addScaled, columnNorms, combineRows, dotProduct, findComplement, vectorNorm, type Rows } from "./small_matrices";
-import { REACHED_ERROR, reachTarget } from "./tool_drag";
+import { reachTarget } from "./tool_drag";
 
 const STEP_RAD = 0.03;
 const LEAST_STEP_RAD = 1e-4;
@@ -117,7 +117,7 @@ class Tracer {
   private takeStep(q: Float64Array, tangent: Float64Array, longest: number): Place | null {
     for (let step = longest; step > LEAST_STEP_RAD; step /= 2) {
       const predicted = addScaled(q, tangent, step);
-      const { configuration, reached } = reachTarget(this.arm, predicted, this.target, this.free, MAX_CORRECTORS, REACHED_ERROR);
+      const { configuration, reached } = reachTarget(this.arm, predicted, this.target, this.free, MAX_CORRECTORS);
       if (!reached || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
       const next = this.findPlace(configuration);
       const [direction, ...others] = next.directions;
@@ -130,7 +130,7 @@ class Tracer {
   private findTangent({ q, directions }: Place, sign: number, previous: Float64Array | null): Float64Array | null {
     if (!directions.length) return null;
     if (this.column !== null) {
-      const tangent = previous === null ? directions[this.column] : combineRows([directions.map((direction) => dotProduct(direction, previous))], directions)[0];
+      const tangent = previous === null ? directions[this.column] : project(previous, directions);
       const norm = (previous === null ? sign : 1) * vectorNorm(tangent);
       return Math.abs(norm) < LEAST_COSINE ? null : tangent.map((value) => value / norm);
     }
@@ -144,6 +144,10 @@ class Tracer {
     return gradient.map((value) => (sign * value) / norm);
   }
 }
+
+/** Return the projection of a vector onto the span of orthonormal rows. */
+const project = (vector: Float64Array, rows: Rows): Float64Array =>
+  combineRows([rows.map((row) => dotProduct(row, vector))], rows)[0];
 
 /** Return how far q can move along a direction until a joint is at its limit. */
 function distanceToLimits(arm: ArmModel, q: Float64Array, direction: Float64Array): number {

@@ -77,11 +77,6 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
     return h("div", { class: "step-row" }, ...children);
   }
 
-  /** A menu with a label; `choose` is called with the index of the selected option. */
-  protected menu(key: string, options: string[], selected: number, choose: (index: number) => void): HTMLLabelElement {
-    return createMenu(this.text(key), options, selected, choose);
-  }
-
   protected slider(key: string, max: number, step: number, value: number, input: (value: number) => void): HTMLInputElement {
     const slider = h("input", { type: "range", min: 0, max, step, value, "aria-label": this.text(key) });
     slider.addEventListener("input", () => input(Number(slider.value)));
@@ -99,7 +94,7 @@ export class HealthyStep extends Step {
   sentences(): [string, string] {
     const { fractions, worst, touched } = this.page;
     if (!touched) return [this.text("healthy_before"), this.text("healthy_detail")];
-    const values = { joint: this.page.label(worst), share: formatPercent(fractions[worst]) };
+    const values = { joint: this.page.data.jointLabels[worst], share: formatPercent(fractions[worst]) };
     return [this.text("healthy", values), this.text("healthy_detail")];
   }
 }
@@ -165,7 +160,7 @@ export class PrepareStep extends Step {
     const best = this.button("go_to_best", () => this.goToBest());
     const directions = this.page.arm.redundancy - this.page.failed.length;
     const names = [this.text("steepest"), ...Array.from({ length: directions }, (_, k) => String(k + 1))];
-    const menu = this.menu("direction", names, 0, (index) => {
+    const menu = createMenu(this.text("direction"), names, 0, (index) => {
       this.direction = index ? index - 1 : null;
       this.motion = null;
       this.page.changeConditions(() => undefined);
@@ -217,7 +212,7 @@ export class PrepareStep extends Step {
   sentences(): [string, string] {
     const { data, fractions, worst, arm } = this.page;
     if (this.motion === null || this.motion.worst[this.motion.best] < STRUCTURAL_ZERO) {
-      return [this.text("fixed"), this.text("fixed_detail", { joint: this.page.label(worst) })];
+      return [this.text("fixed"), this.text("fixed_detail", { joint: this.page.data.jointLabels[worst] })];
     }
     const best = formatPercent(this.motion.worst[this.motion.best]);
     return [
@@ -307,7 +302,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
 
   enter(): void {
     this.page.repairAll();
-    this.joints = this.menu("torque_lost", [this.text("all_joints"), ...this.page.data.jointLabels], 0, (index) => {
+    this.joints = createMenu(this.text("torque_lost"), [this.text("all_joints"), ...this.page.data.jointLabels], 0, (index) => {
       this.page.changeConditions(() => {
         this.page.repairAll();
         if (index > 0) this.page.setCondition(index - 1, "free");
@@ -344,7 +339,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
     const { limitJoint, time } = this.fall as Fall;
     const end = time[time.length - 1];
     const detail = limitJoint === null || state.brakeDelay / 1000 < end ? this.text("power_detail")
-      : this.text("power_limit", { joint: capitalise(this.page.label(limitJoint)), delay: (1000 * end).toFixed(0) });
+      : this.text("power_limit", { joint: capitalise(this.page.data.jointLabels[limitJoint]), delay: (1000 * end).toFixed(0) });
     return [this.text("power", { delay: state.brakeDelay, drop }), detail];
   }
 

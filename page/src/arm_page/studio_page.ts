@@ -59,7 +59,13 @@ export class StudioPage extends ArmPage<StudioPageData> {
   private readonly targetHandle: PoseHandle = this.addHandle("target-handle", "studio_target_handle", {
     move: (pose) => this.setTarget(numbersFromPose(pose)),
   });
-  private readonly objectMenu = h("select", {}, h("option", {}, this.data.texts.studio_none));
+  private readonly objectLabel = createMenu(
+    this.data.texts.studio_object,
+    [this.data.texts.studio_none, ...this.data.studio.objects.map(({ name }) => name)],
+    0,
+    () => this.afterPicture(),
+  );
+  private readonly objectMenu = this.objectLabel.control as HTMLSelectElement;
   private readonly objectPoses: Pose[] = this.data.studio.objects.map(({ name, pose }) => {
     const moved = this.studio.moved.find(([object]) => object === name);
     return moved ? poseFromNumbers(moved[1]) : pose;
@@ -300,13 +306,8 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   protected override addPictureButtons(): void {
     super.addPictureButtons();
-    const { objects } = this.data.studio;
-    const row = this.find(".view3d-controls");
-    if (!objects.length || !row) return;
-    this.objectMenu.append(...objects.map(({ name }) => h("option", {}, name)));
-    this.objectMenu.addEventListener("change", () => this.afterPicture());
-    const name = h("span", {}, this.data.texts.studio_object);
-    row.append(h("label", { class: "studio-menu" }, name, this.objectMenu), this.clearance);
+    this.objectLabel.className = "studio-menu";
+    if (this.objectPoses.length) this.find(".view3d-controls")?.append(this.objectLabel, this.clearance);
   }
 
   protected override selectPart(part: Part): void {

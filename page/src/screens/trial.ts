@@ -200,7 +200,9 @@ class Trial {
     const part = Math.max(0, Math.min(1, share));
     this.arms.draw(run.before.map((before, i) => before + part * (run.q[i] - before)), spec.task);
     this.velocities.drawCommand(station.stick, phase === "broken" || phase === "over" ? null : station.device);
-    if (phase === "running" && spec.record === null) this.hint();
+    if (phase === "running" && spec.record === null) {
+      setText(this.message, station.texts.get(run.inside ? "hint_inside" : "trial_running"));
+    }
   }
 
   private watch(): void {
@@ -212,10 +214,6 @@ class Trial {
       this.message.textContent = lost ? station.texts.get("broken_pad-lost") : this.howToStart;
     }
     if (station.device?.triggered?.()) this.begun();
-  }
-
-  private hint(): void {
-    setText(this.message, this.station.texts.get(this.run.inside ? "hint_inside" : "trial_running"));
   }
 }
 

@@ -38,7 +38,7 @@ export class Painter {
   readonly canvas = document.createElement("canvas");
   /** Whether the processor draws, which is slower than hulls. */
   readonly software: boolean;
-  private readonly gl: WebGLRenderingContext;
+  readonly gl: WebGLRenderingContext;
   private readonly program: WebGLProgram;
   private readonly buffers = new WeakMap<Part, { buffer: WebGLBuffer; count: number }>();
 
@@ -62,10 +62,6 @@ export class Painter {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.LEQUAL);
-  }
-
-  get lost(): boolean {
-    return this.gl.isContextLost();
   }
 
   /** Begin a picture, in which nothing hides what is drawn. */

@@ -31,7 +31,7 @@ let withoutCard = false;
 export function chooseRenderer({ objects }: Scene, picture: Picture): HullRenderer {
   if (!withoutCard && objects.length) {
     try {
-      if (!painter || painter.lost) painter = new Painter();
+      if (!painter || painter.gl.isContextLost()) painter = new Painter();
       withoutCard = painter.software;
     } catch {
       withoutCard = true;

@@ -118,6 +118,26 @@ def test_the_self_motion_is_the_whole_curve(page_arm, rng, name):
     assert compared
 
 
+@pytest.mark.parametrize("column", [None, 0])
+def test_a_self_motion_keeps_locked_joints(page_arm, rng, column):
+    page = page_arm("pa10-9dof")
+    starts, locked = oracles.inside(page.arm, rng, 4), [[2], [0, 4], [7], [1, 5]]
+    script = "(page, arm, [q, locked, column]) => page.traceSelfMotion(arm, q, locked, column)"
+    rows = [[q, joints, column] for q, joints in zip(starts.tolist(), locked, strict=True)]
+    for start, joints, motion in zip(starts, locked, page.call(script, rows), strict=True):
+        q = np.array(motion["configurations"])
+        np.testing.assert_allclose(q[:, joints], np.broadcast_to(start[joints], q[:, joints].shape), rtol=0, atol=1e-12)
+        assert pose_errors(page, q, np.broadcast_to(start, q.shape)).max() < 1e-5
+        assert np.ptp(q, axis=0).max() > 0.1
+
+
+def test_a_lock_ends_the_only_self_motion(page_arm, rng):
+    page = page_arm("panda")
+    rows = [[q, [3]] for q in oracles.inside(page.arm, rng, 3).tolist()]
+    motions = page.call("(page, arm, [q, locked]) => page.traceSelfMotion(arm, q, locked)", rows)
+    assert [len(motion["configurations"]) for motion in motions] == [1, 1, 1]
+
+
 @pytest.mark.parametrize("name", ["panda", "iiwa14", "crane"])
 def test_a_self_motion_ends_at_limits(page_arm, rng, name):
     """Close to a singular configuration it turns within a step, and goes on."""
