@@ -36,6 +36,9 @@ export class ArmModel {
     return free;
   }
 
+  /** Return the configuration within the limits that is nearest to q. */
+  restrict = (q: Float64Array): Float64Array => q.map((value, k) => Math.min(this.upper[k], Math.max(this.lower[k], value)));
+
   /** Poses in the world of the base, the joints, and the tool, each of 12 numbers. */
   frames = (q: Values): Rows => splitRows(evaluate(this.kernels.frames, [q], 12 * (this.jointCount + 2)), this.jointCount + 2);
 

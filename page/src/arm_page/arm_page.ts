@@ -1,6 +1,6 @@
 /** The page of one arm: its state, and how the parts of the page follow it. */
 
-import { h } from "../dom";
+import { h, setText } from "../dom";
 import { place, sum } from "../viewer/algebra";
 import type { Part, Pose, Vector } from "../viewer/scene";
 import { findBody } from "../viewer/hulls";
@@ -222,8 +222,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
       conditions: this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)),
     });
     const [headline, detail] = this.target === null ? this.step.sentences() : this.unreachedSentences();
-    (this.find(".arm-headline") as HTMLElement).textContent = headline;
-    (this.find(".arm-detail") as HTMLElement).textContent = detail;
+    setText(this.find(".arm-headline") as HTMLElement, headline);
+    setText(this.find(".arm-detail") as HTMLElement, detail);
     clearTimeout(this.restTimer);
     this.restTimer = window.setTimeout(() => this.reportRest(headline), REST_MS);
   }
@@ -238,8 +238,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Tell a screen reader, the address, and the commands once nothing has changed for a while. */
   protected reportRest(headline: string): void {
-    const live = this.find("[aria-live]") as HTMLElement;
-    if (live.textContent !== headline) live.textContent = headline;
+    setText(this.find("[aria-live]") as HTMLElement, headline);
     try {
       history.replaceState(null, "", writeAddress(this.state));
     } catch {

@@ -47,7 +47,7 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
       next = advance(state, step);
     }
     [time, state] = [time + step, next];
-    const configuration = restrict(arm, splitRows(state, 2)[0]);
+    const configuration = arm.restrict(splitRows(state, 2)[0]);
     fall.time.push(time);
     fall.configurations.push(configuration);
     fall.drop.push(dotProduct(addScaled(arm.toolPosition(configuration), start, -1), down));
@@ -64,16 +64,12 @@ function dampingRate(arm: ArmModel, q: Values, free: Values): number {
 
 /** Return the free joint that first crosses a limit between two configurations, and the fraction of the step; null for none. */
 function firstCrossing(arm: ArmModel, before: Float64Array, after: Float64Array, free: Values): [number, number] | null {
-  const restricted = restrict(arm, after);
+  const restricted = arm.restrict(after);
   const fractions = after.map((value, k) =>
     free[k] && value !== restricted[k] ? Math.max(0, (restricted[k] - before[k]) / (value - before[k])) : Infinity);
   const fraction = Math.min(...fractions);
   return fraction < Infinity ? [fractions.indexOf(fraction), fraction] : null;
 }
-
-/** Return the configuration within the limits that is nearest to q. */
-const restrict = (arm: ArmModel, q: Float64Array): Float64Array =>
-  q.map((value, k) => Math.min(arm.upper[k], Math.max(arm.lower[k], value)));
 
 /** Swing of one joint that has lost its torque while the others are held. */
 export interface Swing {
@@ -89,7 +85,7 @@ export function swingJoint(arm: ArmModel, q: Values, joint: number): Swing {
   const accelerate = (offset: number): number =>
     arm.accelerations(addScaled(q, free, offset), free.map(() => 0), free)[joint];
   const acceleration = accelerate(0);
-  const stop = (offset: number): number => restrict(arm, addScaled(q, free, offset))[joint] - q[joint];
+  const stop = (offset: number): number => arm.restrict(addScaled(q, free, offset))[joint] - q[joint];
   if (arm.joints[joint].slides) {
     const toRest = Math.abs(acceleration) < REST_ACCELERATION ? 0 : stop(Math.sign(acceleration) * Infinity);
     return { toRest, toFarthest: toRest };

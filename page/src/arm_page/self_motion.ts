@@ -3,7 +3,7 @@
 import type { ArmModel, Values } from "./arm_model";
 import { relativeManipulability } from "./failures";
 import { addScaled, columnNorms, combineRows, dotProduct, findComplement, vectorNorm, type Rows } from "./small_matrices";
-import { reachTarget } from "./tool_drag";
+import { REACHED_ERROR } from "./tool_drag";
 
 const STEP_RAD = 0.03;
 const LEAST_STEP_RAD = 1e-4;
@@ -12,6 +12,8 @@ const LEAST_SLOPE = 1e-9;
 const NO_MOTION = 1e-9;
 const MAX_STEPS = 1000;
 const MAX_CORRECTORS = 8;
+/** Error whose square is below that of a target that is reached: rad, and lengths in units of the arm's own length. */
+const SMALL_ERROR = 1e-4;
 /** A step is halved if it moves the arm by less than this fraction of its length, or if the direction turns by more. */
 const LEAST_PROGRESS = 0.4;
 const LEAST_COSINE = 0.7;
@@ -43,8 +45,7 @@ export function traceSelfMotion(
 ): SelfMotion {
   const tracer = new Tracer(arm, Float64Array.from(q), locked, column);
   const forward = tracer.traceOneWay(1);
-  const isLoop = forward.end === "closed loop";
-  const backward: OneWay = isLoop ? { places: [], end: "closed loop" } : tracer.traceOneWay(-1);
+  const backward = forward.end === "closed loop" ? { places: [], end: forward.end } : tracer.traceOneWay(-1);
   const places = [...backward.places.reverse(), tracer.start, ...forward.places];
   const worst = places.map((place) => place.worst);
   return {
@@ -64,11 +65,6 @@ interface Place {
   directions: Rows;
 }
 
-interface OneWay {
-  places: Place[];
-  end: MotionEnd;
-}
-
 class Tracer {
   readonly start: Place;
   private readonly target: Float64Array;
@@ -86,7 +82,7 @@ class Tracer {
     if (this.start.directions.length === 1) this.column = 0;
   }
 
-  traceOneWay(sign: number): OneWay {
+  traceOneWay(sign: number): { places: Place[]; end: MotionEnd } {
     const places: Place[] = [];
     let [place, previous]: [Place, Float64Array | null] = [this.start, null];
     while (places.length < MAX_STEPS) {
@@ -94,7 +90,8 @@ class Tracer {
       if (tangent === null) return { places, end: "no progress" };
       const longest = Math.min(STEP_RAD, distanceToLimits(this.arm, place.q, tangent));
       if (longest < LEAST_STEP_RAD) return { places, end: "limit" };
-      const next = this.takeStep(place.q, tangent, longest);
+      const bend = addScaled(tangent, previous ?? tangent, -1);
+      const next = this.takeStep(place.q, tangent, bend, longest);
       if (next === null) return { places, end: "no progress" };
       [place, previous] = [next, tangent];
       if (places.length > 1 && isNear(this.arm, place.q, this.start.q)) return { places, end: "closed loop" };
@@ -114,14 +111,26 @@ class Tracer {
   }
 
   /** Return the place after a step along a tangent, which is halved where the motion turns sharply; null for none. */
-  private takeStep(q: Float64Array, tangent: Float64Array, longest: number): Place | null {
+  private takeStep(q: Float64Array, tangent: Float64Array, bend: Float64Array, longest: number): Place | null {
     for (let step = longest; step > LEAST_STEP_RAD; step /= 2) {
-      const predicted = addScaled(q, tangent, step);
-      const { configuration, reached } = reachTarget(this.arm, predicted, this.target, this.free, MAX_CORRECTORS);
-      if (!reached || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
+      const predicted = addScaled(addScaled(q, tangent, step), bend, (step * step) / (2 * STEP_RAD));
+      const configuration = this.correct(this.arm.restrict(predicted));
+      if (!configuration || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
       const next = this.findPlace(configuration);
       const [direction, ...others] = next.directions;
       if (others.length || (direction && Math.abs(dotProduct(direction, tangent)) > LEAST_COSINE)) return next;
+    }
+    return null;
+  }
+
+  /** Return a configuration near q with the target pose; away from limits, a corrector squares a small error. */
+  private correct(q: Float64Array): Float64Array | null {
+    for (let steps = 0; steps < MAX_CORRECTORS; steps++) {
+      const { next, error } = this.arm.stepTowards(q, this.target, this.free);
+      if (error < REACHED_ERROR) return q;
+      const isInside = next.every((value, k) => value > this.arm.lower[k] && value < this.arm.upper[k]);
+      if (error < SMALL_ERROR && isInside) return next;
+      q = next;
     }
     return null;
   }

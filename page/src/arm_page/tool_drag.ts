@@ -6,9 +6,9 @@ import type { ArmModel, Values } from "./arm_model";
 const MAX_STEPS = 30;
 const STARTS = 50;
 /** Largest error of a target that is reached: rad, and lengths in units of the arm's own length. */
-const REACHED_ERROR = 1e-6;
-/** Error from which on no further step is made. */
-const SUFFICIENT_ERROR = 1e-7;
+export const REACHED_ERROR = 1e-6;
+/** Error from which on a further step only repeats rounding. */
+const ROUNDING_ERROR = 1e-12;
 
 export interface ReachedTarget {
   configuration: Float64Array;
@@ -21,7 +21,7 @@ export interface ReachedTarget {
 export function reachTarget(arm: ArmModel, q: Values, target: Values, free: Values, maxSteps = MAX_STEPS): ReachedTarget {
   let configuration: Float64Array = Float64Array.from(q);
   let [nearest, least] = [configuration, Infinity];
-  for (let steps = 0; steps <= maxSteps && least > SUFFICIENT_ERROR; steps++) {
+  for (let steps = 0; steps <= maxSteps && least > ROUNDING_ERROR; steps++) {
     const { next, error } = arm.stepTowards(configuration, target, free);
     if (error < least) [nearest, least] = [configuration, error];
     configuration = next;
