@@ -64,11 +64,14 @@ function dampingRate(arm: ArmModel, q: Values, free: Values): number {
 
 /** Return the free joint that first crosses a limit between two configurations, and the fraction of the step; null for none. */
 function firstCrossing(arm: ArmModel, before: Float64Array, after: Float64Array, free: Values): [number, number] | null {
-  const restricted = arm.restrict(after);
-  const fractions = after.map((value, k) =>
-    free[k] && value !== restricted[k] ? Math.max(0, (restricted[k] - before[k]) / (value - before[k])) : Infinity);
-  const fraction = Math.min(...fractions);
-  return fraction < Infinity ? [fractions.indexOf(fraction), fraction] : null;
+  let first: [number, number] | null = null;
+  for (let k = 0; k < after.length; k++) {
+    if (!free[k] || (after[k] >= arm.lower[k] && after[k] <= arm.upper[k])) continue;
+    const limit = after[k] < arm.lower[k] ? arm.lower[k] : arm.upper[k];
+    const fraction = Math.max(0, (limit - before[k]) / (after[k] - before[k]));
+    if (first === null || fraction < first[1]) first = [k, fraction];
+  }
+  return first;
 }
 
 /** Swing of one joint that has lost its torque while the others are held. */
