@@ -41,7 +41,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(tmp_path):
         "model/arms/data/licenses/Apache-2.0.txt",
     }
     needed |= {"interface/report/templates/page.html", "teleop/protocol/goel2003.yaml", "teleop/serve/texts/en.yaml"}
-    needed |= {f"teleop/serve/static/{name}" for name in ("index.html", "station.js", "worker.js", "licences.txt", "icon.svg")}
+    needed |= {f"teleop/serve/static/{name}" for name in ("index.html", "station.js", "worker.js", "icon.svg")}
     assert {f"holdfast/{name}" for name in needed} <= set(names)
     assert {name.split("/")[0] for name in names} == {"holdfast", f"holdfast_arms-{release.version(ROOT)}.dist-info"}
 

@@ -8,11 +8,6 @@ export interface View {
   rows: [number[], number[]];
 }
 
-export interface Option {
-  value: string;
-  label: string;
-}
-
 export interface Question {
   name: string;
   /** One of the options; a box that must be ticked; a step of a scale; a number; a line of text. */
@@ -20,7 +15,7 @@ export interface Question {
   label: string;
   help?: string;
   optional?: boolean;
-  options?: Option[];
+  options?: { value: string; label: string }[];
   /** Of a scale or number. */
   from?: number;
   to?: number;

@@ -2,15 +2,6 @@
 
 import { h } from "./dom";
 
-export interface PlayerOptions {
-  /** Texts of the button, before and while it plays, and of the slider. */
-  texts: { play?: string; pause?: string; time?: string };
-  /** Called after a change of the shown time. */
-  show: () => void;
-  /** Text for a time. */
-  format?: (time: number) => string;
-}
-
 const SHORTEST_PAUSE_MS = 30; // between two pictures
 
 export class Player {
@@ -18,19 +9,23 @@ export class Player {
   time = 0;
   readonly input = h("input", { type: "range", min: 0, step: "any" });
   readonly button = h("button", { type: "button", onclick: () => this.play() });
-  readonly readout = h("output", { class: "view3d-said" });
+  readonly readout = h("output");
   private duration = 0;
   private speed = 1;
-  private unit = "s";
   private timer = 0;
 
-  constructor(private readonly options: PlayerOptions) {
-    this.input.setAttribute("aria-label", options.texts.time ?? "");
+  /** `texts` are those of button and slider, `format` writes a time, and `show` is called after a change of the time. */
+  constructor(
+    private readonly texts: { play?: string; pause?: string; time?: string },
+    private readonly format: (time: number) => string,
+    private readonly show: () => void,
+  ) {
+    this.input.setAttribute("aria-label", texts.time ?? "");
     this.input.addEventListener("input", () => {
       this.stop();
-      this.showTime(Number(this.input.value));
+      this.showTime(this.input.valueAsNumber);
     });
-    this.button.textContent = options.texts.play ?? "";
+    this.stop();
   }
 
   get playing(): boolean {
@@ -38,31 +33,24 @@ export class Player {
   }
 
   /** Set the end of the motion, and the shown time per second of playing. */
-  setRange(duration: number, speed: number, unit = "s"): void {
+  setRange(duration: number, speed: number): void {
     this.stop();
-    [this.duration, this.speed, this.unit] = [duration, speed, unit];
+    [this.duration, this.speed] = [duration, speed];
     this.input.max = String(duration);
   }
 
-  /** Set the time without a call of `show`. */
-  setTime(time: number): void {
-    this.time = Math.min(time, this.duration);
-    const text = this.options.format?.(this.time) ?? `${this.time.toFixed(this.duration < 20 ? 1 : 0)} ${this.unit}`;
-    this.input.value = String(this.time);
-    if (this.readout.textContent === text) return;
-    this.readout.textContent = text;
-    this.input.setAttribute("aria-valuetext", text);
-  }
-
   showTime(time: number): void {
-    this.setTime(time);
-    this.options.show();
+    this.time = Math.min(time, this.duration);
+    this.input.value = String(this.time);
+    this.readout.textContent = this.format(this.time);
+    this.input.setAttribute("aria-valuetext", this.readout.textContent);
+    this.show();
   }
 
   stop(): void {
     cancelAnimationFrame(this.timer);
     this.timer = 0;
-    this.button.textContent = this.options.texts.play ?? "";
+    this.button.textContent = this.texts.play ?? "";
   }
 
   /** Play from the shown time, or from the beginning at the end; pause while playing. */
@@ -79,7 +67,7 @@ export class Player {
       this.showTime(time);
       if (time >= this.duration) this.stop();
     };
-    this.button.textContent = this.options.texts.pause ?? "";
+    this.button.textContent = this.texts.pause ?? "";
     this.timer = requestAnimationFrame(tick);
   }
 }

@@ -72,8 +72,8 @@ export class Station {
     this.outbox = new Outbox(kept !== null && kept.session === this.session ? kept.outbox : []);
     this.connection = new Connection(addresses.session, this.outbox, {
       online: (yes) => this.online(yes),
-      paused: (yes) => this.frame.pause(yes),
-      unstored: (yes) => this.frame.unstored(yes),
+      paused: (yes) => this.frame.set({ paused: yes }),
+      unstored: (yes) => this.frame.set({ unstored: yes }),
       acknowledged: () => this.acknowledged(),
       over: (reason) => this.stop(reason),
     });
@@ -165,7 +165,7 @@ export class Station {
   private stop(reason: string | null): void {
     this.stopped = true;
     this.clock.stop();
-    this.frame.stop(reason === null ? this.texts.get("elsewhere") : sentence(reason));
+    this.frame.set({ stopped: reason === null ? this.texts.get("elsewhere") : sentence(reason) });
   }
 
   private keep(): void {

@@ -1,7 +1,5 @@
-/** The session as a jsPsych timeline, without the parts that were done in an earlier visit. */
+/** The screens of a session in their order, without the parts that were done in an earlier visit. */
 
-import { initJsPsych } from "jspsych";
-import { ScreenPlugin, type Show } from "./plugins";
 import { showForm } from "./screens/form";
 import { showInstructions } from "./screens/instructions";
 import { showJoin } from "./screens/join";
@@ -17,37 +15,32 @@ const BREAK_EVERY = 24;
 const PRACTICE = 2;
 
 export async function runSession(station: Station): Promise<void> {
-  await initJsPsych({ display_element: station.frame.stage }).run(new Session(station).timeline());
+  await new Session(station).run();
 }
-
-type Node = Extract<Parameters<ReturnType<typeof initJsPsych>["run"]>[0], unknown[]>[number];
 
 class Session {
   /** Reason why the session ends early; null if it does not. */
   private early: "declined" | "untrained" | null = null;
-  /** Practice tasks done, and whether another one follows. */
+  /** Practice tasks done. */
   private practised = 0;
-  private practising = true;
   private note = "";
   private outcome: Outcome = { end: "arrived", cycles: 0 };
 
   constructor(private readonly station: Station) {}
 
-  timeline(): Node[] {
+  async run(): Promise<void> {
     const { station } = this;
-    return [
-      this.screen((e) => showSetup(e, station)),
-      this.screen((e) => showJoin(e, station)),
-      this.screen(async () => this.joined()),
-      this.form("consent", "declined"),
-      this.form("demographics"),
-      this.when(() => this.untouched, [this.screen((e) => showInstructions(e, station))]),
-      this.practice(),
-      this.training(),
-      this.trials(),
-      this.when(() => station.experiment.tlx && this.early === null, [this.form("tlx")]),
-      this.screen((e) => this.debriefing(e)),
-    ];
+    await showSetup(this.stage, station);
+    await showJoin(this.stage, station);
+    this.joined();
+    await this.form("consent", "declined");
+    await this.form("demographics");
+    if (this.untouched) await showInstructions(this.stage, station);
+    if (this.untouched) await this.practice();
+    await this.training();
+    await this.trials();
+    if (station.experiment.tlx) await this.form("tlx");
+    await this.debriefing();
   }
 
   // ---- the parts of the session ------------------------------------------------------------------------------------
@@ -58,59 +51,49 @@ class Session {
     if (station.progress.over && this.more) this.early = "untrained";
   }
 
-  private form(name: string, onDecline: "declined" | null = null): Node {
+  private async form(name: string, onDecline: "declined" | null = null): Promise<void> {
     const { station } = this;
     const form = station.experiment.forms.find((f) => f.name === name);
-    const show = async (e: HTMLElement): Promise<void> => {
-      if (form === undefined) return;
-      station.frame.progress(form.title);
-      const answers = await showForm(e, station, form);
-      if (answers !== null) return station.answer(name, answers);
-      this.early = onDecline;
-      station.event("declined", { form: name });
-    };
-    const asked = (): boolean => form !== undefined && this.early === null && !station.progress.answered.has(name);
-    return this.when(asked, [this.screen(show)]);
+    if (form === undefined || this.early !== null || station.progress.answered.has(name)) return;
+    station.frame.progress(form.title);
+    const answers = await showForm(this.stage, station, form);
+    if (answers !== null) return station.answer(name, answers);
+    this.early = onDecline;
+    station.event("declined", { form: name });
   }
 
   /** Practice uses training tasks from the end of the plan, which few subjects reach; it is not recorded. */
-  private practice(): Node {
-    const { texts } = this.station;
-    const choices = ["done", "more"].map((name) => ({ testid: `practice-${name}`, label: texts.get(`practice_${name}`) }));
-    const ask = this.screen(async (e) => {
-      this.practising = (await this.page(e, "practice", choices)) === "practice-more";
-    });
-    const task = this.task(() => this.practiceTask(), () => this.practised++);
-    const loop = { timeline: [task, this.when(() => this.practised >= PRACTICE, [ask])], loop_function: () => this.practising };
-    return this.when(() => this.untouched, [loop]);
+  private async practice(): Promise<void> {
+    const choices = ["done", "more"].map((name) => this.choice(`practice-${name}`, `practice_${name}`));
+    for (let asked = ""; asked !== "practice-done"; ) {
+      await this.perform(this.practiceTask());
+      this.practised++;
+      if (this.practised >= PRACTICE) asked = await this.page("practice", choices);
+    }
   }
 
-  private training(): Node {
-    const { station } = this;
-    const notice = this.notice("training_intro", "training-begin", "go_on");
-    const intro = this.when(() => station.progress.training.length === 0, [notice]);
-    const task = this.task(() => this.trainingTask(), (outcome) => this.trainingDone(outcome));
+  private async training(): Promise<void> {
     const wanted = (): boolean => !this.isTrained && this.early === null;
-    return this.when(wanted, [intro, { timeline: [task], loop_function: wanted }]);
+    if (wanted() && this.station.progress.training.length === 0) await this.notice("training_intro", "training-begin", "go_on");
+    while (wanted()) this.trainingDone(await this.perform(this.trainingTask()));
   }
 
-  private trials(): Node {
-    const { station } = this;
-    const intro = this.when(() => station.progress.trials === 0, [this.notice("trials_intro", "trials-begin", "go_on")]);
-    const pending = this.when(() => station.progress.unrated, [this.rating()]);
-    const task = this.task(() => this.trialTask(), (outcome) => this.trialDone(outcome));
-    const due = (): boolean => this.more && station.progress.trials % BREAK_EVERY === 0;
-    const rest = this.when(due, [this.notice("break", "break-over", "break_over")]);
-    const loop = { timeline: [task, this.rating(), rest], loop_function: () => this.more };
-    return this.when(() => this.early === null, [pending, this.when(() => this.more, [intro, loop])]);
+  private async trials(): Promise<void> {
+    const { progress } = this.station;
+    if (this.early === null && progress.unrated) await this.rating();
+    if (this.more && progress.trials === 0) await this.notice("trials_intro", "trials-begin", "go_on");
+    while (this.more) {
+      this.trialDone(await this.perform(this.trialTask()));
+      await this.rating();
+      if (this.more && progress.trials % BREAK_EVERY === 0) await this.notice("break", "break-over", "break_over");
+    }
   }
 
-  private async debriefing(element: HTMLElement): Promise<void> {
+  private async debriefing(): Promise<void> {
     const { station } = this;
     station.frame.progress("");
     const stored = station.finish();
-    const choices = [{ testid: "next-subject", label: station.texts.get("next_subject") }];
-    await this.page(element, this.early ?? "debriefing", choices, true);
+    await this.page(this.early ?? "debriefing", [this.choice("next-subject", "next_subject")], true);
     await stored;
     location.assign(station.addresses.begin);
   }
@@ -157,17 +140,15 @@ class Session {
     this.outcome = outcome;
     progress.trials += 1;
     progress.unrated = true;
-    frame.occupied = true;
+    frame.set({ occupied: true });
   }
 
-  private rating(): Node {
+  private async rating(): Promise<void> {
     const { station } = this;
-    return this.screen(async (e) => {
-      const rating = await showRating(e, station, this.suggestedRating());
-      station.progress.unrated = false;
-      station.send({ type: "rate", rating, answers: {} });
-      station.frame.occupied = false;
-    });
+    const rating = await showRating(this.stage, station, this.suggestedRating());
+    station.progress.unrated = false;
+    station.send({ type: "rate", rating, answers: {} });
+    station.frame.set({ occupied: false });
   }
 
   /** Rating of a trial in a dry run; longer trials are rated as more difficult. */
@@ -198,29 +179,31 @@ class Session {
     return (cycles / this.station.experiment.rate).toFixed(1);
   }
 
-  /** A page with one button, whose label has the key `label`. */
-  private notice(key: string, testid: string, label: string): Node {
-    const choices = [{ testid, label: this.station.texts.get(label) }];
-    return this.screen(async (e) => void (await this.page(e, key, choices)));
+  private choice(testid: string, label: string): Choice {
+    return { testid, label: this.station.texts.get(label) };
   }
 
-  private page(element: HTMLElement, key: string, choices: Choice[], last = false): Promise<string> {
+  /** A page with one button, whose label has the key `label`. */
+  private async notice(key: string, testid: string, label: string): Promise<void> {
+    await this.page(key, [this.choice(testid, label)]);
+  }
+
+  private page(key: string, choices: Choice[], last = false): Promise<string> {
     const { texts, experiment, progress, plan } = this.station;
     const { at_least, in_a_row, limit } = experiment.training;
     const values = { at_least, in_a_row, seconds: this.seconds(limit), done: progress.trials, count: plan.trials.length };
     const [title, text] = [texts.get(`${key}_title`), texts.get(`${key}_text`, values)];
-    return showPage(element, this.station, { testid: key.replace("_", "-"), title, text, choices, last });
+    return showPage(this.stage, this.station, { testid: key.replace("_", "-"), title, text, choices, last });
   }
 
-  private screen(show: Show): Node {
-    return { type: ScreenPlugin, show };
+  private perform(spec: TrialSpec): Promise<Outcome> {
+    return performTrial(this.stage, this.station, spec);
   }
 
-  private task(spec: () => TrialSpec, done: (outcome: Outcome) => void): Node {
-    return this.screen(async (e) => done(await performTrial(e, this.station, spec())));
-  }
-
-  private when(condition: () => boolean, timeline: Node[]): Node {
-    return { timeline, conditional_function: condition };
+  /** Where the next screen is shown, from its top. */
+  private get stage(): HTMLElement {
+    const { stage } = this.station.frame;
+    stage.scrollTop = 0;
+    return stage;
   }
 }

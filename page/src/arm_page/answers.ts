@@ -2,16 +2,12 @@
 
 import type { Condition } from "./address";
 import type { Vector } from "../viewer/scene";
+import type { PlayedMotion } from "./playback";
 
-/** A view of the studio, with the fields of the Python class `State`. */
+/** A view of the studio: those fields of the Python class `State` that the page reads or changes. */
 export interface StudioState {
-  arm: string;
   names: string[];
   q: number[];
-  task: string;
-  base: string | null;
-  tip: string | null;
-  hold: [string, number][];
   conditions: Condition[];
   index: string;
   susceptibility: string;
@@ -23,8 +19,6 @@ export interface StudioState {
   file: string | null;
   region: string | null;
   time: number;
-  cell: string | null;
-  meshes: string | null;
   moved: [string, number[]][];
   /** Kind of the fault, joint, and its time, s. */
   fault: [string, string, number];
@@ -52,15 +46,6 @@ export interface JointBars {
   status: string;
 }
 
-export interface Motion {
-  label: string;
-  /** Unit of the time: s, or cycles. */
-  unit: string;
-  time: number[];
-  /** Configurations (T x n), rad and m. */
-  q: number[][];
-}
-
 export interface Cloud {
   label: string;
   points: Vector[];
@@ -72,7 +57,7 @@ export interface Cloud {
 }
 
 export interface Watch {
-  motion: Motion;
+  motion: PlayedMotion;
   /** Times of the residuals, s. */
   time: number[];
   /** Residual of each joint (T x n), or of the tool (T x 1), divided by its threshold. */
@@ -100,12 +85,12 @@ export interface Answers {
   };
   /** Values of the best, the worst, and the present configuration; null where one is infinite. */
   "best-worst": { q: [number[], number[]]; values: (number | null)[] };
-  laws: Motion[];
-  fall: Motion[];
+  laws: PlayedMotion[];
+  fall: PlayedMotion[];
   region: Cloud;
   watch: Watch;
   /** A file that the visitor opens: a motion to play, or the address of the page of another arm. */
-  open: { motion: Motion } | { address: string };
+  open: { motion: PlayedMotion } | { address: string };
   drawing: { svg: string };
   "cell-file": { name: string; text: string; command: string };
 }

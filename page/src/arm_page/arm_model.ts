@@ -36,6 +36,9 @@ export class ArmModel {
     return free;
   }
 
+  /** Return the configuration within the limits that is nearest to q. */
+  restrict = (q: Float64Array): Float64Array => q.map((value, k) => Math.min(this.upper[k], Math.max(this.lower[k], value)));
+
   /** Poses in the world of the base, the joints, and the tool, each of 12 numbers. */
   frames = (q: Values): Rows => splitRows(evaluate(this.kernels.frames, [q], 12 * (this.jointCount + 2)), this.jointCount + 2);
 
@@ -51,9 +54,16 @@ export class ArmModel {
   /** Rows of the Jacobian of the tool in the world (6 x n), linear rows first. */
   jacobian = (q: Values): Rows => splitRows(evaluate(this.kernels.jacobian, [q], 6 * this.jointCount), 6);
 
-  /** Row of each joint (n x r) in an orthonormal basis of the null space of the task Jacobian. */
-  nullSpace = (q: Values): Rows =>
-    splitRows(evaluate(this.kernels.nullSpace, [q], this.jointCount * this.redundancy), this.jointCount);
+  /** Orthonormal basis of the null space of the task Jacobian: r joint velocities (each n). */
+  nullSpace(q: Values): Rows {
+    const entries = evaluate(this.kernels.nullSpace, [q], this.jointCount * this.redundancy);
+    const basis: Rows = [];
+    for (let k = 0; k < this.redundancy; k++) {
+      basis.push(new Float64Array(this.jointCount));
+      for (let joint = 0; joint < this.jointCount; joint++) basis[k][joint] = entries[joint * this.redundancy + k];
+    }
+    return basis;
+  }
 
   /** Step towards a pose of the tool by the free joints (n, each 0 or 1), within the limits. */
   stepTowards(q: Values, target: Values, free: Values): KinematicStep {

@@ -1,18 +1,18 @@
 /** The page of one arm: its state, and how the parts of the page follow it. */
 
-import { h } from "../dom";
+import { h, setText } from "../dom";
 import { place, sum } from "../viewer/algebra";
 import type { Part, Pose, Vector } from "../viewer/scene";
 import { findBody } from "../viewer/hulls";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
-import { View } from "../viewer/view";
 import { listJoints, readAddress, writeAddress, type Condition, type PageState } from "./address";
 import { ArmModel } from "./arm_model";
 import { Bars, nextCondition, type BarValues } from "./bars";
 import { reproduce, writeCommands, type Code } from "./commands";
 import type { ArmPageData, PrintedKernels } from "./data";
 import { relativeManipulability, worstJoint } from "./failures";
+import { PageView } from "./page_view";
 import { fillText, formatPercent, joinNames } from "./phrases";
 import { PoseHandle, type HandleActions } from "./pose_handle";
 import type { Step, StepClasses } from "./steps";
@@ -29,7 +29,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   worst = 0;
   touched = false;
   dragging = false;
-  readonly view: View;
+  readonly view: PageView;
   protected readonly overlay: Overlay;
   protected readonly bars: Bars;
   protected readonly handles: PoseHandle[] = [];
@@ -49,7 +49,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     private readonly stepClasses: StepClasses,
   ) {
     this.arm = new ArmModel(kernels, data.scene.joints, data.taskRows);
-    this.view = new View(box, canvas, data.scene, { frames: (q) => this.arm.frames(q).map((pose) => [...pose]), plain: true });
+    this.view = new PageView(box, canvas, data.scene, this.arm);
     this.overlay = new Overlay(this.view);
     this.controls = this.find(".step-controls") ?? document.createElement("div");
     const conditions = data.scene.locked.map((time): Condition => (time === null ? "healthy" : "locked"));
@@ -63,7 +63,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
       move: (pose) => this.moveTool(pose),
       end: () => this.endDrag(),
     });
-    this.sliders = new JointSliders(data.scene, Array.from(this.state.q), (q) => this.setConfiguration(q));
+    const names = data.scene.joints.map(({ name }) => name);
+    this.sliders = new JointSliders(data.scene, this.state.q, names, (q) => this.setConfiguration(q));
     this.steps = Object.fromEntries(Object.entries(stepClasses).map(([name, kind]) => [name, new kind(this)]));
   }
 
@@ -92,6 +93,11 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     return listJoints(this.state.conditions, "locked", "free");
   }
 
+  /** Whether a motion of the joints is left that keeps the tool where it is. */
+  get hasSelfMotion(): boolean {
+    return this.failed.length < this.arm.redundancy;
+  }
+
   /** Target of the undetected lock, m, which moves with the tool when the visitor drags it. */
   get controlTarget(): Vector {
     const { story } = this.data;
@@ -99,12 +105,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
   }
 
-  label(joint: number): string {
-    return this.data.jointLabels[joint];
-  }
-
   failedNames(): string {
-    return joinNames(this.failed.map((joint) => this.label(joint)));
+    return joinNames(this.failed.map((joint) => this.data.jointLabels[joint]));
   }
 
   repairAll(): void {
@@ -130,7 +132,9 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   private selectPartAt(point: number[]): void {
     const parts = this.data.scene.parts.filter((part) => part.joint !== undefined || part.object);
-    const found = findBody(this.view.placeParts(parts, this.view.frames()), (corner) => this.view.project(corner), point);
+    const poses = this.view.frames();
+    const bodies = parts.map((part) => ({ part, pose: this.view.placePart(part, poses) }));
+    const found = findBody(bodies, (corner) => this.view.project(corner), point);
     if (found) this.selectPart(found.part);
   }
 
@@ -142,7 +146,8 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   private selectCondition(joint: number, condition: Condition): void {
     this.touched = true;
     this.setCondition(joint, condition);
-    if (this.state.step === "healthy" || this.state.step === "prepare") this.openStep("lock");
+    const { step } = this.state;
+    if (step === "healthy" || step === "prepare") this.openStep(step === "prepare" && this.hasSelfMotion ? step : "lock");
     else this.update();
   }
 
@@ -209,12 +214,16 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Draw the picture and write the sentences. */
   draw(): void {
-    this.view.setConditions(this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)));
-    this.view.setGhosts(this.step.ghosts.map((q) => Array.from(q)), this.step.ghostColors);
-    this.view.pose(Array.from(this.step.configuration));
+    const { configuration, ghosts, ghostColors } = this.step;
+    this.view.show({
+      q: Array.from(configuration),
+      ghosts: ghosts.map((q) => Array.from(q)),
+      ghostColors,
+      conditions: this.state.conditions.map((condition) => (condition === "healthy" ? null : condition)),
+    });
     const [headline, detail] = this.target === null ? this.step.sentences() : this.unreachedSentences();
-    (this.find(".arm-headline") as HTMLElement).textContent = headline;
-    (this.find(".arm-detail") as HTMLElement).textContent = detail;
+    setText(this.find(".arm-headline") as HTMLElement, headline);
+    setText(this.find(".arm-detail") as HTMLElement, detail);
     clearTimeout(this.restTimer);
     this.restTimer = window.setTimeout(() => this.reportRest(headline), REST_MS);
   }
@@ -229,8 +238,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Tell a screen reader, the address, and the commands once nothing has changed for a while. */
   protected reportRest(headline: string): void {
-    const live = this.find("[aria-live]") as HTMLElement;
-    if (live.textContent !== headline) live.textContent = headline;
+    setText(this.find("[aria-live]") as HTMLElement, headline);
     try {
       history.replaceState(null, "", writeAddress(this.state));
     } catch {
@@ -265,7 +273,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   protected addHandle(className: string, text: string, actions: HandleActions, axes = this.rotationAxes): PoseHandle {
     const { texts } = this.data;
     const labels: [string, string] = [texts[text], `${texts[text].split(".")[0]}. ${texts.handle_rotate}`];
-    const handle = new PoseHandle(this.view, { className, labels, axes }, actions);
+    const handle = new PoseHandle(this.view, className, labels, axes, actions);
     this.handles.push(handle);
     return handle;
   }

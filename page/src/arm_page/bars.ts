@@ -1,5 +1,6 @@
 /** One bar for each joint: what remains if that joint locks. A click changes its condition. */
 
+import { setText } from "../dom";
 import type { Condition } from "./address";
 import { fillText } from "./phrases";
 
@@ -36,11 +37,11 @@ export class Bars {
       button.dataset.condition = condition;
       button.dataset.worst = String(joint === worst);
       button.style.setProperty("--fraction", String(Math.min(fractions[joint], 1)));
-      (button.querySelector(".bar-value") as HTMLElement).textContent = texts[joint];
-      (button.querySelector(".bar-condition") as HTMLElement).textContent =
-        condition === "healthy" ? (joint === worst ? this.texts.worst : "") : this.texts[condition];
-      const next = this.texts[`make_${NEXT[condition]}`];
-      (button.querySelector(".visually-hidden") as HTMLElement).textContent = fillText(meaning, { next });
+      const state = condition === "healthy" ? (joint === worst ? this.texts.worst : "") : this.texts[condition];
+      const next = fillText(meaning, { next: this.texts[`make_${NEXT[condition]}`] });
+      for (const [name, text] of [["bar-value", texts[joint]], ["bar-condition", state], ["visually-hidden", next]]) {
+        setText(button.querySelector(`.${name}`) as HTMLElement, text);
+      }
     });
     this.list.dataset.failed = String(conditions.some((condition) => condition !== "healthy"));
   }

@@ -4,10 +4,12 @@ import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
 import { addScaled, dotProduct, stepRungeKutta, vectorNorm } from "./small_matrices";
 
-export const CONTROL_STEP_S = 0.02;
+const CONTROL_STEP_S = 0.02;
 const DURATION_S = 12;
-/** Distance from the target at which the tool has arrived, and at which the motion ends, m. */
-const ARRIVAL_M = 0.01;
+/** Largest difference between a step and its halves, rad and m, and a step that is not halved again. */
+const STEP_ERROR = 1e-7;
+const SHORTEST_STEP_S = 2e-4;
+/** Distance from the target at which the motion ends, m. */
 const END_M = 0.001;
 
 export interface ControlSettings {
@@ -20,14 +22,11 @@ export interface ControlSettings {
 }
 
 export interface ControlledMotion {
-  /** Times of the configurations and of the positions of the tool, s and m. */
+  /** Times of the configurations, s. */
   time: number[];
-  configurations: Float64Array[];
-  trail: Vector[];
+  q: Float64Array[];
   /** Largest distance of the tool from the straight line to the target, m. */
   deviation: number;
-  /** Time at which the tool is within 1 cm of the target, s; null if it does not arrive. */
-  arrivalTime: number | null;
 }
 
 /** Simulate 12 s of a motion from q to a target, m, or less if the tool arrives or the law has no answer. */
@@ -45,33 +44,28 @@ export function simulateControl(
     const gain = Math.min(settings.gain, settings.speed / vectorNorm(error));
     return arm.commandRates(settings.law, state, error.map((value) => gain * value)).map((rate, k) => free[k] * rate);
   };
-  const motion: ControlledMotion = { time: [], configurations: [], trail: [], deviation: 0, arrivalTime: null };
+  const motion: ControlledMotion = { time: [], q: [], deviation: 0 };
   let state: Float64Array = Float64Array.from(q);
   const line = errorAt(state);
   for (let step = 0; step <= DURATION_S / CONTROL_STEP_S && state.every(Number.isFinite); step++) {
     const error = errorAt(state);
     motion.time.push(step * CONTROL_STEP_S);
-    motion.configurations.push(state);
-    motion.trail.push(arm.toolPosition(state));
+    motion.q.push(state);
     motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
-    if (vectorNorm(error) <= ARRIVAL_M) motion.arrivalTime ??= step * CONTROL_STEP_S;
     if (vectorNorm(error) <= END_M) break;
-    state = stepAcrossSlowdown(rates, state, (next) => vectorNorm(errorAt(next)) - settings.speed / settings.gain);
+    state = advance(rates, state, CONTROL_STEP_S);
   }
   return motion;
 }
 
-/** Return the state after a step, which is split where the tool begins to slow down, because the velocity has a kink there. */
-function stepAcrossSlowdown(
-  derivative: (state: Float64Array) => Float64Array,
-  state: Float64Array,
-  distanceToSlowdown: (state: Float64Array) => number,
-): Float64Array {
-  const next = stepRungeKutta(derivative, state, CONTROL_STEP_S);
-  const [before, after] = [distanceToSlowdown(state), distanceToSlowdown(next)];
-  if (before > 0 === after > 0) return next;
-  const first = (CONTROL_STEP_S * before) / (before - after);
-  return stepRungeKutta(derivative, stepRungeKutta(derivative, state, first), CONTROL_STEP_S - first);
+/** Return the state after a duration; a step is halved until its halves agree with it, because damping and speed have kinks. */
+function advance(derivative: (state: Float64Array) => Float64Array, state: Float64Array, duration: number): Float64Array {
+  const whole = stepRungeKutta(derivative, state, duration);
+  const middle = stepRungeKutta(derivative, state, duration / 2);
+  const halves = stepRungeKutta(derivative, middle, duration / 2);
+  const error = vectorNorm(addScaled(halves, whole, -1));
+  if (error <= STEP_ERROR || duration < SHORTEST_STEP_S) return halves;
+  return advance(derivative, advance(derivative, state, duration / 2), duration / 2);
 }
 
 /** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */

@@ -5,11 +5,6 @@ import type { Vector } from "../viewer/scene";
 import { listJoints, type PageState } from "./address";
 import type { ArmPageData } from "./data";
 
-interface Reproduction {
-  shell: string;
-  python: string;
-}
-
 /** Code that reproduces a state. */
 export interface Code {
   kind: "studio" | "shell" | "python";
@@ -21,74 +16,65 @@ export interface Code {
  * `target` the target of the undetected lock, m.
  */
 export function reproduce(data: ArmPageData, state: PageState, worst: number, target: Vector): Code[] {
-  const { shell, python } = writeCode(data, state, worst, target);
-  return [{ kind: "shell", text: shell }, { kind: "python", text: python }];
-}
-
-function writeCode(data: ArmPageData, state: PageState, worst: number, target: Vector): Reproduction {
   const q = Array.from(state.q, (value) => String(Number(value.toFixed(6)))).join(", ");
   const numbers = `"${q.replace(/ /g, "")}"`;
   const failed = listJoints(state.conditions, "locked", "free");
   const free = listJoints(state.conditions, "free");
-  const python = (...lines: string[]): string =>
-    ["import holdfast as hf", "", `arm = ${data.pythonArm}`, `q = [${q}]`, ...lines].join("\n");
+  const code = (shell: string, ...lines: string[]): Code[] => [
+    { kind: "shell", text: shell },
+    { kind: "python", text: ["import holdfast as hf", "", `arm = ${data.pythonArm}`, `q = [${q}]`, ...lines].join("\n") },
+  ];
   const measure = `hf.indices.relative_manipulability(arm, "${data.taskName}")`;
-  const index: Reproduction = {
-    shell: `holdfast index ${data.argument} --q=${numbers} --task ${data.taskName}`,
-    python: python(`print(${measure}.evaluate(q).by_failure)`),
-  };
-  if (data.scene.joints.length <= data.taskRows.length && (state.step === "healthy" || state.step === "lock")) {
-    return { shell: `holdfast describe ${data.argument}`, python: python("print(arm)") };
+  const indexCommand = `holdfast index ${data.argument} --q=${numbers} --task ${data.taskName}`;
+  const index = code(indexCommand, `print(${measure}.evaluate(q).by_failure)`);
+  const { step } = state;
+  if (step === "healthy" || step === "lock") {
+    if (data.scene.joints.length <= data.taskRows.length) return code(`holdfast describe ${data.argument}`, "print(arm)");
+    if (step === "healthy" || failed.length < 2) return index;
+    return code(
+      indexCommand,
+      "import numpy as np",
+      `from holdfast.model.arm.task import as_task`,
+      "",
+      `J = as_task(arm, "${data.taskName}").rows @ arm.jacobian(q)`,
+      "N = np.linalg.svd(J)[2][len(J):].T",
+      `print(np.linalg.svd(N[[${failed.join(", ")}]])[1])`,
+    );
   }
-  switch (state.step) {
-    case "lock":
-      if (failed.length < 2) return index;
-      return { shell: index.shell, python: python(
-        "import numpy as np",
-        `from holdfast.model.arm.task import as_task`,
-        "",
-        `J = as_task(arm, "${data.taskName}").rows @ arm.jacobian(q)`,
-        "N = np.linalg.svd(J)[2][len(J):].T",
-        `print(np.linalg.svd(N[[${failed.join(", ")}]])[1])`,
-      ) };
-    case "prepare":
-      return {
-        shell: `holdfast optimise ${data.argument} --at=${numbers} --maximise relative-manipulability --task ${data.taskName}`,
-        python: python(`print(hf.optimise(arm, arm.forward_kinematics(q), ${measure}, initial=q).value)`),
-      };
-    case "undetected": {
-      if (data.story === null) return index;
-      const { laws, gain, speed } = data.story;
-      const locked = failed[0] ?? worst;
-      const task = data.positionTask;
-      const goal = target.slice(0, task === "planar" ? 2 : 3).map((value) => Number(value.toFixed(6)));
-      return {
-        shell: laws.map((law) => `holdfast simulate ${data.argument} --start=${numbers} --task ${task} --target=${goal.join(",")} ` +
-          `--lock ${locked + 1} --law ${law.slug} --gain ${gain} --speed-limit ${speed}`).join("\n"),
-        python: python(
-          `for label in ["${laws[0].slug}", "${laws[1].slug}"]:`,
-          `    law = hf.laws.by_name(label, arm, task="${task}", gain=${gain}, speed_limit=${speed})`,
-          `    print(hf.simulate(law, q, [${goal.join(", ")}], locked=[${locked}]).line_deviation(until=12))`,
-        ),
-      };
-    }
-    case "power": {
-      const seconds = state.brakeDelay / 1000;
-      const joints = free.length ? ` --free ${free.map((joint) => joint + 1).join(",")}` : "";
-      const option = free.length ? `, free=[${free.join(", ")}]` : "";
-      const swing = free.length === 1 ? `\nholdfast susceptibility ${data.argument} --measure swing-angle --q=${numbers}` : "";
-      return {
-        shell: `holdfast power-loss ${data.argument} --q=${numbers}${joints} --coulomb 0 --stiction 0 ` +
-          `--duration ${Math.max(seconds, 0.01)}${swing}`,
-        python: python(
-          `fall = hf.power_loss(arm, q${option}, friction=hf.Friction(coulomb=0), duration=0.5)`,
-          `print(fall.drop_at(${seconds}))`,
-        ),
-      };
-    }
-    default:
-      return index;
+  if (step === "prepare" && !failed.length) {
+    return code(
+      `holdfast optimise ${data.argument} --at=${numbers} --maximise relative-manipulability --task ${data.taskName}`,
+      `print(hf.optimise(arm, arm.forward_kinematics(q), ${measure}, initial=q).value)`,
+    );
   }
+  if (step === "undetected" && data.story !== null) {
+    const { laws, gain, speed } = data.story;
+    const locked = failed[0] ?? worst;
+    const task = data.positionTask;
+    const goal = target.slice(0, task === "planar" ? 2 : 3).map((value) => Number(value.toFixed(6)));
+    const simulate = (law: string): string =>
+      `holdfast simulate ${data.argument} --start=${numbers} --task ${task} --target=${goal.join(",")} ` +
+      `--lock ${locked + 1} --law ${law} --gain ${gain} --speed-limit ${speed}`;
+    return code(
+      laws.map(({ slug }) => simulate(slug)).join("\n"),
+      `for label in ["${laws[0].slug}", "${laws[1].slug}"]:`,
+      `    law = hf.laws.by_name(label, arm, task="${task}", gain=${gain}, speed_limit=${speed})`,
+      `    print(hf.simulate(law, q, [${goal.join(", ")}], locked=[${locked}]).line_deviation(until=12))`,
+    );
+  }
+  if (step === "power") {
+    const seconds = state.brakeDelay / 1000;
+    const joints = free.length ? ` --free ${free.map((joint) => joint + 1).join(",")}` : "";
+    const option = free.length ? `, free=[${free.join(", ")}]` : "";
+    const swing = free.length === 1 ? `\nholdfast susceptibility ${data.argument} --measure swing-angle --q=${numbers}` : "";
+    return code(
+      `holdfast power-loss ${data.argument} --q=${numbers}${joints} --coulomb 0 --stiction 0 ` +
+        `--duration ${Math.max(seconds, 0.01)}${swing}`,
+      `fall = hf.power_loss(arm, q${option}, friction=hf.Friction(coulomb=0), duration=0.5)`,
+      `print(fall.drop_at(${seconds}))`,
+    );
+  }
+  return index;
 }
 
 /** Show commands and Python lines, each with a button that copies it, and a button for the address. */

@@ -5,14 +5,14 @@ import { createSvg } from "../dom";
 export interface Curve {
   x: number[];
   y: number[];
-  /** Largest value of each axis; the axes begin at the first x and at 0. */
+  /** Largest value of the vertical axis, which begins at 0. */
   yMax: number;
   xLabel: string;
   yLabel: string;
   /** Texts at both ends of the horizontal axis. */
   xEnds: [string, string];
-  /** Text at the top of the vertical axis. */
-  yTop: string;
+  /** Text of a height, for the top of the vertical axis. */
+  format: (y: number) => string;
   /** Index of the marked sample. */
   marker: number;
   /** Height and label of a dotted horizontal line. */
@@ -46,7 +46,7 @@ export function drawCurve(curve: Curve): SVGElement {
     createSvg("text", { x: LEFT, y: HEIGHT - 8 }, curve.xEnds[0]),
     createSvg("text", { x: (LEFT + end) / 2, y: HEIGHT - 8, "text-anchor": "middle" }, curve.xLabel),
     createSvg("text", { x: end, y: HEIGHT - 8, "text-anchor": "end" }, curve.xEnds[1]),
-    createSvg("text", { x: LEFT - 4, y: TOP + 9, "text-anchor": "end" }, curve.yTop),
+    createSvg("text", { x: LEFT - 4, y: TOP + 9, "text-anchor": "end" }, curve.format(curve.yMax)),
     createSvg("text", { x: LEFT - 4, y: floor, "text-anchor": "end" }, "0"),
     createSvg("text", { x: LEFT, y: TOP - 8 }, curve.yLabel),
   );

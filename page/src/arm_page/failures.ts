@@ -2,14 +2,15 @@
 
 import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
-import { addScaled, dotProduct, factorRows, findSingularValues, solveTransposed, vectorNorm, type Rows } from "./small_matrices";
+import {
+  addScaled, columnNorms, combineRows, dotProduct, factorRows, findSingularValues, solveTransposed, vectorNorm, type Rows,
+} from "./small_matrices";
 
 /** Norm up to which the projection of locked joints onto the motions of the task is rounding. */
 const NO_PROJECTION = 1e-9;
 
 /** Return the relative manipulability (n) that remains if each joint locks, from 0 to 1. */
-export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array =>
-  new Float64Array(arm.nullSpace(q).map(vectorNorm));
+export const relativeManipulability = (arm: ArmModel, q: Values): Float64Array => columnNorms(arm.nullSpace(q), arm.jointCount);
 
 /** Return the joint, from 0, with the smallest value. */
 export const worstJoint = (manipulability: Float64Array): number => manipulability.indexOf(Math.min(...manipulability));
@@ -29,8 +30,9 @@ export interface LostMotion {
  */
 export function lostMotions(arm: ArmModel, q: Values, locked: readonly number[]): LostMotion[] {
   const { basis, lower } = factorRows(taskJacobian(arm, q));
-  const nullSpace = arm.nullSpace(q);
-  const fractions = findSingularValues(locked.map((joint) => nullSpace[joint])).slice(-arm.taskRows.length);
+  const selfMotions = arm.nullSpace(q);
+  const lockedRows = locked.map((joint) => selfMotions.map((motion) => motion[joint]));
+  const fractions = findSingularValues(lockedRows).slice(-arm.taskRows.length);
   return fractions.reverse().map(({ value, direction }) => {
     const projection = Float64Array.from(basis, (row) => dotProduct(locked.map((joint) => row[joint]), direction));
     const motion = solveTransposed(lower, projection);
@@ -64,7 +66,3 @@ export function toolEllipsoid(arm: ArmModel, q: Values, locked: readonly number[
 const removePart = (row: Float64Array, unit: Float64Array): Float64Array => addScaled(row, unit, -dotProduct(unit, row));
 
 const taskJacobian = (arm: ArmModel, q: Values): Rows => combineRows(arm.taskRows, arm.jacobian(q));
-
-/** Return the product of weights (a x b) and rows (b x n). */
-const combineRows = (weights: number[][], rows: Rows): Rows =>
-  weights.map((line) => rows.reduce((total, row, k) => addScaled(total, row, line[k]), new Float64Array(rows[0].length)));

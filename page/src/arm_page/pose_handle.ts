@@ -4,20 +4,12 @@ import { createSvg, h } from "../dom";
 import { column, dot, place, rotation, sum, times } from "../viewer/algebra";
 import type { Pose, Vector } from "../viewer/scene";
 import { circle } from "../viewer/things";
-import type { View } from "../viewer/view";
+import type { PageView } from "./page_view";
 
 export interface HandleActions {
   begin?: () => void;
   move: (pose: Pose) => void;
   end?: () => void;
-}
-
-export interface HandleOptions {
-  className: string;
-  /** What a screen reader says of the button while it moves the pose, and while it rotates the pose. */
-  labels: [string, string];
-  /** Axes of the pose, 0 to 2, about which it can be rotated. */
-  axes: number[];
 }
 
 const COARSE_STEPS = 4; // small steps of a key without Shift
@@ -41,11 +33,21 @@ export class PoseHandle {
   private drag: Drag | null = null;
   private rotating = false;
 
-  constructor(private readonly view: View, private readonly options: HandleOptions, private readonly actions: HandleActions) {
-    const className = `pose-handle ${options.className}`;
-    this.button = h("button", { type: "button", class: className, "aria-label": options.labels[0], hidden: true });
+  /**
+   * `labels` are what a screen reader says of the button while it moves the pose, and while it rotates the pose; `axes` are those
+   * of the pose, 0 to 2, about which it can be rotated.
+   */
+  constructor(
+    private readonly view: PageView,
+    className: string,
+    private readonly labels: [string, string],
+    private readonly axes: number[],
+    private readonly actions: HandleActions,
+  ) {
+    const properties = { type: "button", class: `pose-handle ${className}`, "aria-label": labels[0], hidden: true };
+    this.button = h("button", properties);
     this.rings = createSvg("svg", { class: "view3d-overlay pose-rings", "aria-hidden": "true", hidden: "" });
-    for (const axis of options.axes) {
+    for (const axis of axes) {
       const ring = createSvg("path", { class: `ring-${"xyz"[axis]}` });
       this.listen(ring, () => ({ axis, tangent: this.findTangent(axis) }));
       this.rings.append(ring);
@@ -60,8 +62,8 @@ export class PoseHandle {
 
   /** Let arrow keys rotate the pose, and show the rings. */
   setRotating(on: boolean): void {
-    this.rotating = on && this.options.axes.length > 0;
-    this.button.setAttribute("aria-label", this.options.labels[Number(this.rotating)]);
+    this.rotating = on && this.axes.length > 0;
+    this.button.setAttribute("aria-label", this.labels[Number(this.rotating)]);
     if (this.pose.length) this.place(this.pose);
   }
 
@@ -75,8 +77,8 @@ export class PoseHandle {
     this.button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
     if (!this.rotating) return;
     [...this.rings.children].forEach((ring, k) => {
-      const points = this.ringPoints(this.options.axes[k]).map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`);
-      ring.setAttribute("d", `M${points.join("L")}`);
+      const points = this.ringPoints(this.axes[k]).map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`);
+      ring.setAttribute("d", `M${points.join("L")}Z`);
     });
   }
 
@@ -90,7 +92,7 @@ export class PoseHandle {
 
   /** Movement of the ring at the pointer, pixels per rad. */
   private findTangent(axis: number): number[] {
-    const points = this.ringPoints(axis).slice(1);
+    const points = this.ringPoints(axis);
     const distance = ([x, y]: Vector): number => Math.hypot(x - this.pointer[0], y - this.pointer[1]);
     const nearest = points.reduce((best, point, k) => (distance(point) < distance(points[best]) ? k : best), 0);
     const [before, after] = [points.at(nearest - 1) as Vector, points[(nearest + 1) % points.length]];

@@ -42,12 +42,12 @@ export function simulateFall(arm: ArmModel, q: Values, free: Values, brakeTime: 
     let next = advance(state, step);
     const crossing = firstCrossing(arm, before, splitRows(next, 2)[0], free);
     if (crossing !== null) {
-      fall.limitJoint = crossing.joint;
-      step *= crossing.fraction;
+      fall.limitJoint = crossing[0];
+      step *= crossing[1];
       next = advance(state, step);
     }
     [time, state] = [time + step, next];
-    const configuration = splitRows(state, 2)[0].map((value, k) => Math.min(arm.upper[k], Math.max(arm.lower[k], value)));
+    const configuration = arm.restrict(splitRows(state, 2)[0]);
     fall.time.push(time);
     fall.configurations.push(configuration);
     fall.drop.push(dotProduct(addScaled(arm.toolPosition(configuration), start, -1), down));
@@ -62,20 +62,15 @@ function dampingRate(arm: ArmModel, q: Values, free: Values): number {
   return arm.joints.reduce((total, _, k) => total + accelerate(-1, k) - accelerate(k, k), 0);
 }
 
-interface Crossing {
-  joint: number;
-  fraction: number;
-}
-
 /** Return the free joint that first crosses a limit between two configurations, and the fraction of the step; null for none. */
-function firstCrossing(arm: ArmModel, before: Float64Array, after: Float64Array, free: Values): Crossing | null {
-  let first: Crossing | null = null;
-  after.forEach((value, joint) => {
-    const limit = value < arm.lower[joint] ? arm.lower[joint] : value > arm.upper[joint] ? arm.upper[joint] : null;
-    if (limit === null || !free[joint]) return;
-    const fraction = Math.max(0, (limit - before[joint]) / (value - before[joint]));
-    if (first === null || fraction < first.fraction) first = { joint, fraction };
-  });
+function firstCrossing(arm: ArmModel, before: Float64Array, after: Float64Array, free: Values): [number, number] | null {
+  let first: [number, number] | null = null;
+  for (let k = 0; k < after.length; k++) {
+    if (!free[k] || (after[k] >= arm.lower[k] && after[k] <= arm.upper[k])) continue;
+    const limit = after[k] < arm.lower[k] ? arm.lower[k] : arm.upper[k];
+    const fraction = Math.max(0, (limit - before[k]) / (after[k] - before[k]));
+    if (first === null || fraction < first[1]) first = [k, fraction];
+  }
   return first;
 }
 
@@ -93,15 +88,14 @@ export function swingJoint(arm: ArmModel, q: Values, joint: number): Swing {
   const accelerate = (offset: number): number =>
     arm.accelerations(addScaled(q, free, offset), free.map(() => 0), free)[joint];
   const acceleration = accelerate(0);
-  const restrict = (offset: number): number =>
-    Math.min(arm.upper[joint] - q[joint], Math.max(arm.lower[joint] - q[joint], offset));
+  const stop = (offset: number): number => arm.restrict(addScaled(q, free, offset))[joint] - q[joint];
   if (arm.joints[joint].slides) {
-    const toRest = Math.abs(acceleration) < REST_ACCELERATION ? 0 : restrict(Math.sign(acceleration) * Infinity);
+    const toRest = Math.abs(acceleration) < REST_ACCELERATION ? 0 : stop(Math.sign(acceleration) * Infinity);
     return { toRest, toFarthest: toRest };
   }
   // The torque of gravity is a sine of the angle, so its values at two angles determine it.
   const quarterTurn = accelerate(Math.PI / 2);
   if (Math.hypot(acceleration, quarterTurn) < REST_ACCELERATION) return { toRest: 0, toFarthest: 0 };
   const angle = Math.atan2(acceleration, -quarterTurn);
-  return { toRest: restrict(angle), toFarthest: restrict(2 * angle) };
+  return { toRest: stop(angle), toFarthest: stop(2 * angle) };
 }

@@ -2,14 +2,18 @@
 
 import type { ArmModel, Values } from "./arm_model";
 import { relativeManipulability } from "./failures";
-import { addScaled, dotProduct, vectorNorm } from "./small_matrices";
-import { reachTarget } from "./tool_drag";
+import { addScaled, columnNorms, combineRows, dotProduct, findComplement, vectorNorm, type Rows } from "./small_matrices";
+import { REACHED_ERROR } from "./tool_drag";
 
 const STEP_RAD = 0.03;
 const LEAST_STEP_RAD = 1e-4;
 const LEAST_SLOPE = 1e-9;
+/** Relative manipulability of a joint up to which it does not take part in the self-motion. */
+const NO_MOTION = 1e-9;
 const MAX_STEPS = 1000;
 const MAX_CORRECTORS = 8;
+/** Error whose square is below that of a target that is reached: rad, and lengths in units of the arm's own length. */
+const SMALL_ERROR = 1e-4;
 /** A step is halved if it moves the arm by less than this fraction of its length, or if the direction turns by more. */
 const LEAST_PROGRESS = 0.4;
 const LEAST_COSINE = 0.7;
@@ -29,106 +33,130 @@ export interface SelfMotion {
   ends: [MotionEnd, MotionEnd];
 }
 
-const worstCase = (arm: ArmModel, q: Values): number => Math.min(...relativeManipulability(arm, q));
-
 /**
- * Trace the self-motion both ways from q: all of it for an arm with one redundant joint, otherwise the part along a vector of
- * the basis of the null space, or without one along the projected gradient of the worst case, where it rises and where it falls.
+ * Trace the self-motion both ways from q while the locked joints stay: all of it where one direction is left, otherwise the
+ * part along one of the directions, or without one along the gradient of the worst case, where it rises and where it falls.
  */
-export function traceSelfMotion(arm: ArmModel, q: Values, column: number | null = null): SelfMotion {
-  const start = Float64Array.from(q);
-  const target = arm.toolPose(start);
-  const forward = traceOneWay(arm, start, target, 1, column);
-  const isLoop = forward.end === "closed loop";
-  const backward: OneWay = isLoop ? { configurations: [], end: "closed loop" } : traceOneWay(arm, start, target, -1, column);
-  const configurations = [...backward.configurations.reverse(), start, ...forward.configurations];
-  const worst = configurations.map((configuration) => worstCase(arm, configuration));
+export function traceSelfMotion(
+  arm: ArmModel,
+  q: Values,
+  locked: readonly number[] = [],
+  column: number | null = null,
+): SelfMotion {
+  const tracer = new Tracer(arm, Float64Array.from(q), locked, column);
+  const forward = tracer.traceOneWay(1);
+  const backward = forward.end === "closed loop" ? { places: [], end: forward.end } : tracer.traceOneWay(-1);
+  const places = [...backward.places.reverse(), tracer.start, ...forward.places];
+  const worst = places.map((place) => place.worst);
   return {
-    configurations,
+    configurations: places.map((place) => place.q),
     worst,
-    start: backward.configurations.length,
+    start: backward.places.length,
     best: worst.indexOf(Math.max(...worst)),
     ends: [backward.end, forward.end],
   };
 }
 
-interface OneWay {
-  configurations: Float64Array[];
-  end: MotionEnd;
+interface Place {
+  q: Float64Array;
+  /** Smallest relative manipulability. */
+  worst: number;
+  /** Orthonormal joint velocities (each n) that move neither the tool nor a locked joint. */
+  directions: Rows;
 }
 
-function traceOneWay(arm: ArmModel, start: Float64Array, target: Float64Array, sign: number, column: number | null): OneWay {
-  const configurations: Float64Array[] = [];
-  let [q, previous]: [Float64Array, Float64Array | null] = [start, null];
-  while (configurations.length < MAX_STEPS) {
-    const tangent = selfMotionDirection(arm, q, sign, previous, arm.redundancy === 1 ? 0 : column);
-    if (tangent === null) return { configurations, end: "no progress" };
-    const longest = Math.min(STEP_RAD, distanceToLimits(arm, q, tangent));
-    if (longest < LEAST_STEP_RAD) return { configurations, end: "limit" };
-    const next = takeStep(arm, q, tangent, longest, target);
-    if (next === null) return { configurations, end: "no progress" };
-    [q, previous] = [next, tangent];
-    if (configurations.length > 1 && isNear(arm, q, start)) return { configurations, end: "closed loop" };
-    configurations.push(q);
+class Tracer {
+  readonly start: Place;
+  private readonly target: Float64Array;
+  private readonly free: Float64Array;
+
+  constructor(
+    private readonly arm: ArmModel,
+    q: Float64Array,
+    private readonly locked: readonly number[],
+    private column: number | null,
+  ) {
+    this.start = this.findPlace(q);
+    this.target = arm.toolPose(q);
+    this.free = arm.freeJoints(locked);
+    if (this.start.directions.length === 1) this.column = 0;
   }
-  return { configurations, end: "length" };
-}
 
-/** Return the configuration after a step along a tangent, which is halved where the motion turns sharply; null for none. */
-function takeStep(
-  arm: ArmModel,
-  q: Float64Array,
-  tangent: Float64Array,
-  longest: number,
-  target: Float64Array,
-): Float64Array | null {
-  for (let step = longest; step > LEAST_STEP_RAD; step /= 2) {
-    const predicted = addScaled(q, tangent, step);
-    const { configuration, reached } = reachTarget(arm, predicted, target, arm.freeJoints([]), MAX_CORRECTORS);
-    if (!reached || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
-    const cosine = Math.abs(dotProduct(nullDirection(arm, configuration, 0), tangent));
-    if (arm.redundancy > 1 || cosine > LEAST_COSINE) return configuration;
+  traceOneWay(sign: number): { places: Place[]; end: MotionEnd } {
+    const places: Place[] = [];
+    let [place, previous]: [Place, Float64Array | null] = [this.start, null];
+    while (places.length < MAX_STEPS) {
+      const tangent = this.findTangent(place, sign, previous);
+      if (tangent === null) return { places, end: "no progress" };
+      const longest = Math.min(STEP_RAD, distanceToLimits(this.arm, place.q, tangent));
+      if (longest < LEAST_STEP_RAD) return { places, end: "limit" };
+      const bend = addScaled(tangent, previous ?? tangent, -1);
+      const next = this.takeStep(place.q, tangent, bend, longest);
+      if (next === null) return { places, end: "no progress" };
+      [place, previous] = [next, tangent];
+      if (places.length > 1 && isNear(this.arm, place.q, this.start.q)) return { places, end: "closed loop" };
+      places.push(place);
+    }
+    return { places, end: "length" };
   }
-  return null;
-}
 
-/** Return the unit direction (n) of the motion at q, which continues the previous one; null where it would turn back. */
-function selfMotionDirection(
-  arm: ArmModel,
-  q: Float64Array,
-  sign: number,
-  previous: Float64Array | null,
-  column: number | null,
-): Float64Array | null {
-  if (arm.redundancy === 0) return null;
-  if (column !== null) {
-    const tangent = previous === null ? nullDirection(arm, q, column) : projectOntoNullSpace(arm, q, previous);
-    const norm = (previous === null ? sign : 1) * vectorNorm(tangent);
-    return Math.abs(norm) < LEAST_COSINE ? null : tangent.map((value) => value / norm);
+  private findPlace(q: Float64Array): Place {
+    const basis = this.arm.nullSpace(q);
+    const norms = columnNorms(basis, q.length);
+    const held = this.locked
+      .filter((joint) => norms[joint] > NO_MOTION)
+      .map((joint) => Float64Array.from(basis, (motion) => motion[joint]));
+    const directions = held.length ? combineRows(findComplement(held, basis.length), basis) : basis;
+    return { q, worst: Math.min(...norms), directions };
   }
-  // Differences over a step average the gradients on both sides of a kink of the worst case.
-  const slopes = Float64Array.from({ length: arm.redundancy }, (_, column) => {
-    const offset = nullDirection(arm, q, column);
-    return worstCase(arm, addScaled(q, offset, STEP_RAD / 2)) - worstCase(arm, addScaled(q, offset, -STEP_RAD / 2));
-  });
-  const gradient = Float64Array.from(arm.nullSpace(q), (row) => dotProduct(row, slopes));
-  const norm = vectorNorm(gradient);
-  if (norm < LEAST_SLOPE || (previous !== null && sign * dotProduct(gradient, previous) <= 0)) return null;
-  return gradient.map((value) => (sign * value) / norm);
+
+  /** Return the place after a step along a tangent, which is halved where the motion turns sharply; null for none. */
+  private takeStep(q: Float64Array, tangent: Float64Array, bend: Float64Array, longest: number): Place | null {
+    for (let step = longest; step > LEAST_STEP_RAD; step /= 2) {
+      const predicted = addScaled(addScaled(q, tangent, step), bend, (step * step) / (2 * STEP_RAD));
+      const configuration = this.correct(this.arm.restrict(predicted));
+      if (!configuration || dotProduct(tangent, addScaled(configuration, q, -1)) < LEAST_PROGRESS * step) continue;
+      const next = this.findPlace(configuration);
+      const [direction, ...others] = next.directions;
+      if (others.length || (direction && Math.abs(dotProduct(direction, tangent)) > LEAST_COSINE)) return next;
+    }
+    return null;
+  }
+
+  /** Return a configuration near q with the target pose; away from limits, a corrector squares a small error. */
+  private correct(q: Float64Array): Float64Array | null {
+    for (let steps = 0; steps < MAX_CORRECTORS; steps++) {
+      const { next, error } = this.arm.stepTowards(q, this.target, this.free);
+      if (error < REACHED_ERROR) return q;
+      const isInside = next.every((value, k) => value > this.arm.lower[k] && value < this.arm.upper[k]);
+      if (error < SMALL_ERROR && isInside) return next;
+      q = next;
+    }
+    return null;
+  }
+
+  /** Return the unit direction (n) of the motion, which continues the previous one; null where it would turn back. */
+  private findTangent({ q, directions }: Place, sign: number, previous: Float64Array | null): Float64Array | null {
+    if (!directions.length) return null;
+    if (this.column !== null) {
+      const tangent = previous === null ? directions[this.column] : project(previous, directions);
+      const norm = (previous === null ? sign : 1) * vectorNorm(tangent);
+      return Math.abs(norm) < LEAST_COSINE ? null : tangent.map((value) => value / norm);
+    }
+    // Differences over a step average the gradients on both sides of a kink of the worst case.
+    const worst = (offset: Float64Array, length: number): number =>
+      Math.min(...relativeManipulability(this.arm, addScaled(q, offset, length)));
+    const slopes = directions.map((offset) => worst(offset, STEP_RAD / 2) - worst(offset, -STEP_RAD / 2));
+    const gradient = combineRows([slopes], directions)[0];
+    const norm = vectorNorm(gradient);
+    if (norm < LEAST_SLOPE || (previous !== null && sign * dotProduct(gradient, previous) <= 0)) return null;
+    return gradient.map((value) => (sign * value) / norm);
+  }
 }
 
-function projectOntoNullSpace(arm: ArmModel, q: Values, direction: Values): Float64Array {
-  const rows = arm.nullSpace(q);
-  const parts = Float64Array.from(rows[0], (_, k) => rows.reduce((sum, row, j) => sum + row[k] * direction[j], 0));
-  return Float64Array.from(rows, (row) => dotProduct(row, parts));
-}
-
-/** Return a unit vector (n) of the basis of the null space. */
-function nullDirection(arm: ArmModel, q: Values, column: number): Float64Array {
-  const direction = new Float64Array(arm.jointCount);
-  arm.nullSpace(q).forEach((row, joint) => (direction[joint] = row[column]));
-  return direction;
-}
+/** Return the projection of a vector onto the span of orthonormal rows. */
+const project = (vector: Float64Array, rows: Rows): Float64Array =>
+  combineRows([rows.map((row) => dotProduct(row, vector))], rows)[0];
 
 /** Return how far q can move along a direction until a joint is at its limit. */
 function distanceToLimits(arm: ArmModel, q: Float64Array, direction: Float64Array): number {

@@ -29,6 +29,17 @@ export function addScaled(a: ArrayLike<number>, b: ArrayLike<number>, scale: num
   return sum;
 }
 
+/** Return the product of weights (a x b) and rows (b x n). */
+export const combineRows = (weights: ArrayLike<number>[], rows: Rows): Rows =>
+  weights.map((line) => rows.reduce((total, row, k) => addScaled(total, row, line[k]), new Float64Array(rows[0].length)));
+
+/** Return the norm of each of the columns. */
+export function columnNorms(rows: Rows, count: number): Float64Array {
+  const squares = new Float64Array(count);
+  for (const row of rows) for (let k = 0; k < count; k++) squares[k] += row[k] * row[k];
+  return squares.map(Math.sqrt);
+}
+
 /** Orthonormal rows, and the lower triangular factor with `rows = lower basis`; a dependent row has a basis row of zeros. */
 export interface RowFactors {
   basis: Rows;
@@ -55,6 +66,12 @@ export function factorRows(rows: Rows): RowFactors {
   return { basis, lower };
 }
 
+/** Return orthonormal rows of a length that complete other rows of this length to a basis. */
+export function findComplement(rows: Rows, length: number): Rows {
+  const units = Array.from({ length }, (_, k) => Float64Array.from({ length }, (_unit, j) => Number(j === k)));
+  return factorRows([...rows, ...units]).basis.slice(rows.length).filter(vectorNorm);
+}
+
 /** Solve `lower' x = b`; the unknowns of dependent rows are 0. */
 export function solveTransposed(lower: Rows, b: Float64Array): Float64Array {
   const x = new Float64Array(b.length);
@@ -73,7 +90,7 @@ export interface SingularValue {
 }
 
 /** Return a singular value for each row, largest first, by one-sided Jacobi rotations. */
-export function findSingularValues(rows: Rows): SingularValue[] {
+export function findSingularValues(rows: ArrayLike<number>[]): SingularValue[] {
   const rotated = rows.map((row) => Float64Array.from(row));
   const directions = rows.map((_, i) => Float64Array.from(rows, (_row, k) => (i === k ? 1 : 0)));
   for (let sweep = 0, largestCosine = 1; sweep < MAX_SWEEPS && largestCosine > 1e-16; sweep++) {

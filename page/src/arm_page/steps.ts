@@ -1,16 +1,16 @@
 /** The five steps of the story. Each one sets the joints, shows its controls, and adds to the picture. */
 
 import { createMenu, createSvg, h } from "../dom";
-import { Player } from "../player";
 import type { OverlayContent } from "../viewer/overlay";
 import type { Vector } from "../viewer/scene";
-import type { GhostColor } from "../viewer/view";
 import { listJoints } from "./address";
 import type { ArmPage } from "./arm_page";
-import { CONTROL_STEP_S, simulateControl, type ControlledMotion } from "./closed_loop";
+import { simulateControl } from "./closed_loop";
 import { drawCurve } from "./curves";
 import { lostMotions, toolEllipsoid, type LostMotion } from "./failures";
+import type { GhostColor } from "./page_view";
 import { capitalise, fillText, formatAngle, formatLength, formatPercent } from "./phrases";
+import { createKey, Playback } from "./playback";
 import { simulateFall, swingJoint, type Fall, type Swing } from "./power_loss";
 import { traceSelfMotion, type SelfMotion } from "./self_motion";
 
@@ -19,13 +19,14 @@ const BRAKE_DELAY_STEP_MS = 10;
 const SLIDE_SPEED_SAMPLES_PER_PICTURE = 2; // on the way to the best configuration
 const PAUSE_RATIO = 25;
 const STRUCTURAL_ZERO = 1e-6; // relative manipulability below which a joint has no substitute
-const PLAY_SPEED = 2; // simulated seconds per second
 const TRAIL_STYLES = ["solid", "dotted", "dashed"] as const;
 
 export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Configurations that the picture shows transparently. */
   ghosts: ArrayLike<number>[] = [];
   ghostColors: GhostColor[] = [];
+  /** Motions that the step shows, if it has some. */
+  readonly playback: Playback | null = null;
 
   constructor(protected readonly page: Page) {}
 
@@ -51,7 +52,9 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Compute what takes longer than a picture, after a drag. */
   rest(): void {}
   /** Stop animations, before another step. */
-  leave(): void {}
+  leave(): void {
+    this.playback?.close();
+  }
 
   /** Configuration that the picture shows. */
   get configuration(): ArrayLike<number> {
@@ -59,7 +62,7 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   }
 
   overlay(): OverlayContent {
-    return {};
+    return this.playback?.overlay ?? {};
   }
 
   protected text(key: string, values: Record<string, string | number> = {}): string {
@@ -70,9 +73,8 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
     return h("button", { type: "button", onclick: action }, this.text(key));
   }
 
-  /** A menu with a label; `choose` is called with the index of the selected option. */
-  protected menu(key: string, options: string[], selected: number, choose: (index: number) => void): HTMLLabelElement {
-    return createMenu(this.text(key), options, selected, choose);
+  protected row(...children: (Node | null)[]): HTMLElement {
+    return h("div", { class: "step-row" }, ...children);
   }
 
   protected slider(key: string, max: number, step: number, value: number, input: (value: number) => void): HTMLInputElement {
@@ -80,13 +82,6 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
     slider.addEventListener("input", () => input(Number(slider.value)));
     return slider;
   }
-}
-
-/** An entry of a legend: a shape of 34 x 10, and what it means. */
-function createKey(shape: SVGElement, ...meaning: (Node | string)[]): HTMLElement {
-  const svg = createSvg("svg", { viewBox: "0 0 34 10", "aria-hidden": "true" });
-  svg.append(shape);
-  return h("span", { class: "law-key" }, svg, ...meaning);
 }
 
 export class HealthyStep extends Step {
@@ -99,7 +94,7 @@ export class HealthyStep extends Step {
   sentences(): [string, string] {
     const { fractions, worst, touched } = this.page;
     if (!touched) return [this.text("healthy_before"), this.text("healthy_detail")];
-    const values = { joint: this.page.label(worst), share: formatPercent(fractions[worst]) };
+    const values = { joint: this.page.data.jointLabels[worst], share: formatPercent(fractions[worst]) };
     return [this.text("healthy", values), this.text("healthy_detail")];
   }
 }
@@ -109,13 +104,13 @@ export class LockStep extends Step {
 
   enter(): void {
     if (this.page.failed.length === 0) this.page.setCondition(this.page.worst, "locked");
-    const key = (style: string): Element => {
+    const key = (style: string): HTMLElement => {
       const shape = createSvg("ellipse", { class: `overlay-ellipsoid overlay-${style}`, cx: 17, cy: 5, rx: 15, ry: 4 });
       return createKey(shape, this.text(`${style}_lock`));
     };
     this.page.controls.replaceChildren(
-      h("div", { class: "step-row" }, key("before"), key("after")),
-      h("div", { class: "step-row" }, this.button("unlock_all", () => this.page.changeConditions(() => this.page.repairAll()))),
+      this.row(key("before"), key("after")),
+      this.row(this.button("unlock_all", () => this.page.changeConditions(() => this.page.repairAll()))),
     );
   }
 
@@ -156,29 +151,28 @@ export class PrepareStep extends Step {
   private timer = 0;
   private input = this.slider("self_motion", 0, 1, 0, (index) => this.slide(index));
   private curve = h("div");
-  /** Vector of the null-space basis along which the arm moves; null for the direction in which the worst case rises. */
+  /** Direction of the self-motion; null for the one in which the worst case rises. */
   private direction: number | null = null;
 
   enter(): void {
-    this.page.repairAll();
-    this.motion = null;
+    if (!this.page.hasSelfMotion) this.page.repairAll();
+    [this.motion, this.direction] = [null, null];
     const best = this.button("go_to_best", () => this.goToBest());
-    const { redundancy } = this.page.arm;
-    const names = [this.text("steepest"), ...Array.from({ length: redundancy }, (_, k) => String(k + 1))];
-    const menu = this.menu("direction", names, (this.direction ?? -1) + 1, (index) => {
+    const directions = this.page.arm.redundancy - this.page.failed.length;
+    const names = [this.text("steepest"), ...Array.from({ length: directions }, (_, k) => String(k + 1))];
+    const menu = createMenu(this.text("direction"), names, 0, (index) => {
       this.direction = index ? index - 1 : null;
       this.motion = null;
       this.page.changeConditions(() => undefined);
     });
-    const row = h("div", { class: "step-row" }, best, redundancy > 1 ? menu : null);
-    this.page.controls.replaceChildren(this.curve, this.input, row);
+    this.page.controls.replaceChildren(this.curve, this.input, this.row(best, directions > 1 ? menu : null));
   }
 
   update(): void {
-    const { arm, state } = this.page;
+    const { arm, state, failed } = this.page;
     if (this.motion?.configurations[this.index] === state.q) return this.showMotion(this.motion);
     this.computeWhenDue(() => {
-      this.motion = traceSelfMotion(arm, state.q, this.direction);
+      this.motion = traceSelfMotion(arm, state.q, failed, this.direction);
       this.index = this.motion.start;
       this.input.max = String(this.motion.configurations.length - 1);
       this.showMotion(this.motion);
@@ -196,7 +190,7 @@ export class PrepareStep extends Step {
         x: worst.map((_, k) => k),
         y: worst,
         yMax,
-        yTop: formatPercent(yMax),
+        format: formatPercent,
         xLabel: this.text("self_motion"),
         xEnds: ["", ""],
         yLabel: this.text("curve_worst"),
@@ -218,7 +212,7 @@ export class PrepareStep extends Step {
   sentences(): [string, string] {
     const { data, fractions, worst, arm } = this.page;
     if (this.motion === null || this.motion.worst[this.motion.best] < STRUCTURAL_ZERO) {
-      return [this.text("fixed"), this.text("fixed_detail", { joint: this.page.label(worst) })];
+      return [this.text("fixed"), this.text("fixed_detail", { joint: this.page.data.jointLabels[worst] })];
     }
     const best = formatPercent(this.motion.worst[this.motion.best]);
     return [
@@ -243,9 +237,10 @@ export class PrepareStep extends Step {
 }
 
 export class UndetectedStep extends Step {
-  private motions: ControlledMotion[] = [];
-  private readonly player = new Player({ texts: this.page.data.texts, show: () => this.showTime() });
-  private deviations: HTMLElement[] = [];
+  override readonly playback = new Playback(this.page, TRAIL_STYLES, () => {
+    this.ghosts = this.playback.configurations.slice(1);
+    this.page.draw();
+  });
   private line: [Vector, Vector] | null = null;
 
   enter(): void {
@@ -253,17 +248,7 @@ export class UndetectedStep extends Step {
       this.page.repairAll();
       this.page.setCondition(this.page.worst, "locked");
     }
-    const key = (index: number, name: string): Element => {
-      this.deviations[index] = h("span");
-      const shape = createSvg("path", { class: `overlay-trail overlay-${TRAIL_STYLES[index]}`, d: "M1 5H33" });
-      return createKey(shape, name, this.deviations[index]);
-    };
-    const laws = this.page.data.story?.laws ?? [];
-    const names = [...laws.map((law) => law.name), this.text("prepared_law", { law: laws[0]?.name ?? "" })];
-    this.page.controls.replaceChildren(
-      ...names.map((name, k) => h("div", { class: "step-row" }, key(k, name))),
-      h("label", {}, this.player.button, this.player.input, this.player.readout),
-    );
+    this.page.controls.replaceChildren(this.playback.element);
     this.rest();
   }
 
@@ -271,33 +256,26 @@ export class UndetectedStep extends Step {
 
   /** Simulate the motions from the present configuration, and play them. */
   override rest(): void {
-    const { arm, state, failed, data } = this.page;
+    const { arm, state, failed, data, controlTarget } = this.page;
     const { story } = data;
-    if (story === null || this.player.playing) return;
-    const self = traceSelfMotion(arm, state.q);
-    const prepared = self.configurations[self.best];
-    const target = this.page.controlTarget;
-    this.line = [arm.toolPosition(state.q), target];
-    const starts = [state.q, state.q, prepared];
-    const laws = [story.laws[0], story.laws[1], story.laws[0]];
-    this.motions = starts.map((start, k) =>
-      simulateControl(arm, start, target, failed, { law: laws[k].slug, gain: story.gain, speed: story.speed }),
-    );
-    this.motions.forEach(({ deviation }, k) => {
-      this.deviations[k].textContent = this.text("deviation", { deviation: formatLength(deviation) });
+    if (story === null || this.playback.player.playing) return;
+    const { configurations, best } = traceSelfMotion(arm, state.q);
+    this.line = [arm.toolPosition(state.q), controlTarget];
+    const { laws: [first, second], gain, speed } = story;
+    const runs = [
+      { label: first.name, law: first.slug, start: state.q },
+      { label: second.name, law: second.slug, start: state.q },
+      { label: this.text("prepared_law", { law: first.name }), law: first.slug, start: configurations[best] },
+    ];
+    const motions = runs.map(({ label, law, start }) => {
+      const motion = simulateControl(arm, start, controlTarget, failed, { law, gain, speed });
+      return { ...motion, label, note: this.text("deviation", { deviation: formatLength(motion.deviation) }) };
     });
-    const duration = Math.max(...this.motions.map((motion) => motion.time[motion.time.length - 1]));
-    this.player.setRange(duration, PLAY_SPEED);
-    this.player.showTime(duration);
-    if (!this.page.reducedMotion) this.player.play();
-  }
-
-  override leave(): void {
-    this.player.stop();
+    this.playback.open(motions);
   }
 
   override get configuration(): ArrayLike<number> {
-    return this.motions.length ? this.at(0) : this.page.state.q;
+    return this.playback.configurations[0] ?? this.page.state.q;
   }
 
   sentences(): [string, string] {
@@ -310,24 +288,7 @@ export class UndetectedStep extends Step {
   }
 
   override overlay(): OverlayContent {
-    const trails = this.motions.map((motion, k) => ({
-      points: motion.trail.slice(0, this.sample(k) + 1),
-      style: TRAIL_STYLES[k],
-    }));
-    return { trails: trails.filter((trail) => trail.points.length > 1), pointerLine: this.line ?? undefined };
-  }
-
-  private sample(motion: number): number {
-    return Math.min(Math.round(this.player.time / CONTROL_STEP_S), this.motions[motion].time.length - 1);
-  }
-
-  private at(motion: number): ArrayLike<number> {
-    return this.motions[motion].configurations[this.sample(motion)];
-  }
-
-  private showTime(): void {
-    this.ghosts = [this.at(1), this.at(2)];
-    this.page.draw();
+    return { ...super.overlay(), pointerLine: this.line ?? undefined };
   }
 }
 
@@ -341,7 +302,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
 
   enter(): void {
     this.page.repairAll();
-    this.joints = this.menu("torque_lost", [this.text("all_joints"), ...this.page.data.jointLabels], 0, (index) => {
+    this.joints = createMenu(this.text("torque_lost"), [this.text("all_joints"), ...this.page.data.jointLabels], 0, (index) => {
       this.page.changeConditions(() => {
         this.page.repairAll();
         if (index > 0) this.page.setCondition(index - 1, "free");
@@ -378,7 +339,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
     const { limitJoint, time } = this.fall as Fall;
     const end = time[time.length - 1];
     const detail = limitJoint === null || state.brakeDelay / 1000 < end ? this.text("power_detail")
-      : this.text("power_limit", { joint: capitalise(this.page.label(limitJoint)), delay: (1000 * end).toFixed(0) });
+      : this.text("power_limit", { joint: capitalise(this.page.data.jointLabels[limitJoint]), delay: (1000 * end).toFixed(0) });
     return [this.text("power", { delay: state.brakeDelay, drop }), detail];
   }
 
@@ -412,7 +373,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
         x: time,
         y: drop,
         yMax: height,
-        yTop: formatLength(height),
+        format: formatLength,
         xLabel: this.text("brake_delay"),
         xEnds: ["0", `${(1000 * time[time.length - 1]).toFixed(0)} ms`],
         yLabel: this.text("curve_drop"),

@@ -24,13 +24,14 @@ export const MAX_FILE_BYTES = 4 << 20;
 
 /** What the studio asks of some steps. */
 export interface StudioStepParts {
-  /** Content of `StudioState.show`, and the time of its motion, s. */
+  /** Content of `StudioState.show` once the step has a result. */
   show?: string;
-  time?: number;
   /** Whether the step has a target, with a handle. */
   hasTarget?: boolean;
   /** Compute what the step shows. */
   run?: () => Promise<void>;
+  /** Discard a result that another configuration, condition, or position of an object has made obsolete. */
+  discard?: () => void;
   /** Show a new answer to the question `reading`. */
   showReading?: () => void;
   choosePoint?: (index: number) => void;
@@ -47,6 +48,8 @@ export class StudioPage extends ArmPage<StudioPageData> {
   private asking = false;
   private askedState = "";
   private job: AbortController | null = null;
+  /** What the result of a step depends on. */
+  private resultBasis = "";
   private readonly status = h("p", { class: "studio-status", role: "status" });
   private readonly progress = h("progress", { "aria-label": this.data.texts.studio_progress });
   private readonly cancelButton = h("button", { type: "button", onclick: () => this.cancel() }, this.data.texts.studio_cancel);
@@ -56,7 +59,13 @@ export class StudioPage extends ArmPage<StudioPageData> {
   private readonly targetHandle: PoseHandle = this.addHandle("target-handle", "studio_target_handle", {
     move: (pose) => this.setTarget(numbersFromPose(pose)),
   });
-  private readonly objectMenu = h("select", {}, h("option", {}, this.data.texts.studio_none));
+  private readonly objectLabel = createMenu(
+    this.data.texts.studio_object,
+    [this.data.texts.studio_none, ...this.data.studio.objects.map(({ name }) => name)],
+    0,
+    () => this.afterPicture(),
+  );
+  private readonly objectMenu = this.objectLabel.control as HTMLSelectElement;
   private readonly objectPoses: Pose[] = this.data.studio.objects.map(({ name, pose }) => {
     const moved = this.studio.moved.find(([object]) => object === name);
     return moved ? poseFromNumbers(moved[1]) : pose;
@@ -101,13 +110,22 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   /** The view, as the server reads it. */
   get studioState(): StudioState {
-    const { show = "arm", time = 0 } = this.parts;
-    return { ...this.studio, q: Array.from(this.state.q), conditions: [...this.state.conditions], show, time };
+    const { playback } = this.step;
+    const isShown = playback === null || playback.motions.length > 0;
+    return {
+      ...this.studio,
+      q: Array.from(this.state.q),
+      conditions: [...this.state.conditions],
+      show: (isShown && this.parts.show) || "arm",
+      time: (isShown && playback?.player.time) || 0,
+    };
   }
 
-  /** What the results of a step depend on. */
-  get resultKey(): string {
-    return JSON.stringify([Array.from(this.state.q), this.state.conditions, this.studio.moved]);
+  /** Return the time, s, at which the command line shows the first motion, and 0 after that. */
+  takeTime(): number {
+    const { time } = this.studio;
+    this.studio.time = 0;
+    return time;
   }
 
   createMenu(label: string, options: string[], selected: string, choose: (option: string) => void): HTMLLabelElement {
@@ -121,6 +139,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
   protected override openStep(name: string): void {
     this.cancel();
     this.report("");
+    this.resultBasis = "";
     super.openStep(name);
   }
 
@@ -170,6 +189,9 @@ export class StudioPage extends ArmPage<StudioPageData> {
   }
 
   protected override update(): void {
+    const basis = JSON.stringify([Array.from(this.state.q), this.state.conditions, this.studio.moved]);
+    if (basis !== this.resultBasis) this.parts.discard?.();
+    this.resultBasis = basis;
     super.update();
     void this.askReading();
   }
@@ -284,18 +306,13 @@ export class StudioPage extends ArmPage<StudioPageData> {
 
   protected override addPictureButtons(): void {
     super.addPictureButtons();
-    const { objects } = this.data.studio;
-    const row = this.find(".view3d-controls");
-    if (!objects.length || !row) return;
-    this.objectMenu.append(...objects.map(({ name }) => h("option", {}, name)));
-    this.objectMenu.addEventListener("change", () => this.afterPicture());
-    const name = h("span", {}, this.data.texts.studio_object);
-    row.append(h("label", { class: "studio-menu" }, name, this.objectMenu), this.clearance);
+    this.objectLabel.className = "studio-menu";
+    if (this.objectPoses.length) this.find(".view3d-controls")?.append(this.objectLabel, this.clearance);
   }
 
   protected override selectPart(part: Part): void {
     if (!part.object) return super.selectPart(part);
-    const chosen = this.view.objects.indexOf(part) + 1;
+    const chosen = this.view.objectIndex(part) + 1;
     this.objectMenu.selectedIndex = this.objectMenu.selectedIndex === chosen ? 0 : chosen;
     this.afterPicture();
   }

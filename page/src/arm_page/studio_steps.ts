@@ -1,100 +1,26 @@
 /** Steps of the studio after the five steps of the page; the server computes what they show. */
 
 import { h } from "../dom";
-import { Player } from "../player";
-import { between } from "../viewer/algebra";
-import type { OverlayContent } from "../viewer/overlay";
-import type { Vector } from "../viewer/scene";
-import type { Answers, Cloud, Motion, Watch } from "./answers";
+import type { Answers, Cloud, Watch } from "./answers";
+import type { GhostColor } from "./page_view";
 import { saveFile, savePicture } from "./picture_file";
+import { Playback, type PlayedMotion } from "./playback";
 import { drawSignals } from "./signals";
 import { PowerStep, Step, STEP_CLASSES, type StepClasses } from "./steps";
 import { formatNumber, MAX_FILE_BYTES, type StudioPage, type StudioStepParts } from "./studio_page";
 
-type MotionColor = "green" | "orange" | "purple";
+type MotionColor = Extract<GhostColor, "green" | "orange" | "purple">;
 const LATEST_ONSET_S = 4;
-const LONGEST_PLAY_S = 15;
 
-/** Motions over time, as transparent arms with trails of the tool. */
-class Playback {
-  readonly player: Player;
-  readonly element: HTMLElement;
-  motions: Motion[] = [];
-  private trails: Vector[][] = [];
-  private readonly list = h("ul", { class: "studio-list" });
+abstract class StudioStep extends Step<StudioPage> implements StudioStepParts {
+  update(): void {}
 
-  /** `show` is called with the configurations at the shown time. */
-  constructor(
-    private readonly page: StudioPage,
-    private readonly colors: MotionColor[],
-    private readonly show: (configurations: number[][]) => void,
-  ) {
-    this.player = new Player({ texts: page.data.texts, show: () => this.showTime() });
-    const { button, input, readout } = this.player;
-    this.element = h("div", { hidden: true }, this.list, h("label", {}, button, input, readout));
-  }
-
-  /** Show motions from their beginning, or with reduced motion at their end. */
-  open(motions: Motion[], time?: number): void {
-    this.motions = motions;
-    this.trails = motions.map((motion) => motion.q.map((q) => this.page.arm.toolPosition(q)));
-    this.list.replaceChildren(...motions.map(({ label }, k) => h("li", { class: `motion-${this.colors[k]}` }, label)));
-    this.element.hidden = false;
-    const end = Math.max(...motions.map((motion) => motion.time[motion.time.length - 1]));
-    this.player.setRange(end, Math.max(1, end / LONGEST_PLAY_S), motions[0].unit);
-    this.player.showTime(time || end);
-    if (!time && !this.page.reducedMotion) this.player.play();
-  }
-
-  close(): void {
-    this.player.stop();
-    this.motions = [];
-    this.element.hidden = true;
-  }
-
-  get overlay(): OverlayContent {
-    const trails = this.motions.map((motion, k) => ({
-      points: this.trails[k].slice(0, Math.ceil(this.sample(motion)) + 1),
-      style: this.colors[k],
-    }));
-    return { trails: trails.filter(({ points }) => points.length > 1) };
-  }
-
-  private showTime(): void {
-    this.show(this.motions.map((motion) => between(motion.q, this.sample(motion))));
-  }
-
-  /** Index of the shown sample, with its fraction. */
-  private sample({ time }: Motion): number {
-    const after = time.findIndex((value) => value > this.player.time);
-    if (after <= 0) return after < 0 ? time.length - 1 : 0;
-    return after - 1 + (this.player.time - time[after - 1]) / (time[after] - time[after - 1]);
-  }
-}
-
-abstract class StudioStep extends Step<StudioPage> {
-  private resultKey = "";
-
-  /** Discard a result that another configuration or condition has made obsolete. */
-  update(): void {
-    if (this.resultKey && this.resultKey !== this.page.resultKey) this.discard();
-  }
-
-  protected keep(): void {
-    this.resultKey = this.page.resultKey;
-  }
-
-  protected discard(): void {
-    this.resultKey = "";
+  discard(): void {
     this.ghosts = [];
   }
 
   override leave(): void {
     this.discard();
-  }
-
-  protected row(...children: (Node | null)[]): HTMLElement {
-    return h("div", { class: "step-row" }, ...children);
   }
 }
 
@@ -115,20 +41,18 @@ class ChooseStep extends StudioStep {
     });
     const find = this.button("studio_find", () => void this.run());
     this.page.controls.replaceChildren(menu, this.row(find), this.row(...this.takeButtons));
-    this.discard();
   }
 
   async run(): Promise<void> {
     const found = await this.page.run("best-worst", { show: "best-worst" });
     if (!found) return;
     this.found = found;
-    this.keep();
     [this.ghosts, this.ghostColors] = [[...found.q], ["green", "orange"]];
     for (const button of this.takeButtons) button.disabled = false;
     this.page.draw();
   }
 
-  protected override discard(): void {
+  override discard(): void {
     super.discard();
     this.found = null;
     for (const button of this.takeButtons) button.disabled = true;
@@ -147,48 +71,33 @@ class ChooseStep extends StudioStep {
 
 /** A step with motions. */
 abstract class MotionStep extends StudioStep {
-  protected abstract readonly kind: string;
-  protected readonly playback: Playback;
+  abstract readonly show: string;
+  override readonly playback: Playback;
 
   constructor(page: StudioPage, colors: MotionColor[] = ["purple"]) {
     super(page);
-    this.playback = new Playback(page, colors, (configurations) => {
-      [this.ghosts, this.ghostColors] = [configurations, colors];
+    this.playback = new Playback(page, colors, () => {
+      [this.ghosts, this.ghostColors] = [this.playback.configurations, colors];
       this.showTime();
       page.draw();
     });
   }
 
-  get show(): string {
-    return this.playback.motions.length ? this.kind : "arm";
-  }
-
-  get time(): number {
-    return this.playback.motions.length ? this.playback.player.time : 0;
-  }
-
   /** Show what belongs to the time of the player. */
   protected showTime(): void {}
 
-  protected open(motions: Motion[]): void {
-    const { studio } = this.page;
-    this.playback.open(motions, studio.time);
-    studio.time = 0;
-    this.keep();
+  protected open(motions: PlayedMotion[]): void {
+    this.playback.open(motions, this.page.takeTime());
   }
 
-  protected override discard(): void {
+  override discard(): void {
     super.discard();
     this.playback.close();
-  }
-
-  override overlay(): OverlayContent {
-    return this.playback.overlay;
   }
 }
 
 class LawsStep extends MotionStep {
-  protected readonly kind = "laws";
+  readonly show = "laws";
   readonly hasTarget = true;
 
   constructor(page: StudioPage) {
@@ -241,8 +150,6 @@ class RegionStep extends StudioStep {
     this.showCloud();
   }
 
-  override update(): void {}
-
   override leave(): void {
     const { scene } = this.page.view;
     [scene.points, scene.colors] = [[], []];
@@ -293,7 +200,7 @@ class RegionStep extends StudioStep {
 }
 
 class WatchStep extends MotionStep {
-  protected readonly kind = "watch";
+  readonly show = "watch";
   readonly hasTarget = true;
   private watch: Watch | null = null;
   private readonly panels = h("div");
@@ -301,7 +208,7 @@ class WatchStep extends MotionStep {
   private readonly readout = h("output");
   private readonly onset = this.slider("studio_onset", LATEST_ONSET_S, 0.1, 0, (time) => this.setFault(2, time));
   private readonly inject = this.button("studio_inject", () => {
-    this.setFault(2, Math.round(10 * Math.min(this.time, LATEST_ONSET_S)) / 10);
+    this.setFault(2, Math.round(10 * Math.min(this.playback.player.time, LATEST_ONSET_S)) / 10);
     void this.run();
   });
 
@@ -319,7 +226,6 @@ class WatchStep extends MotionStep {
       this.panels,
       this.findings,
     );
-    this.discard();
     void this.page.chooseTarget();
   }
 
@@ -335,7 +241,7 @@ class WatchStep extends MotionStep {
   sentences(): [string, string] {
     if (!this.watch) return [this.text("studio_watch_before"), this.text("studio_watch_detail")];
     const { alarm, onset } = this.watch;
-    if (alarm === null || this.time < alarm) return [this.text("studio_no_alarm"), this.text("studio_signals")];
+    if (alarm === null || this.playback.player.time < alarm) return [this.text("studio_no_alarm"), this.text("studio_signals")];
     const delay = onset === null || alarm < onset ? this.text("studio_false_alarm", { time: alarm.toFixed(2) })
       : this.text("studio_alarm", { delay: Math.round(1000 * (alarm - onset)) });
     return [delay, this.text("studio_signals")];
@@ -343,7 +249,7 @@ class WatchStep extends MotionStep {
 
   protected override showTime(): void {
     if (!this.watch) return;
-    const { watch, time } = this;
+    const { watch, playback: { player: { time } } } = this;
     this.panels.replaceChildren(...drawSignals(watch, time, this.page.data.jointLabels, this.page.data.texts));
     const sentences = watch.sentences.filter(({ from }) => from <= time + 1e-9);
     if (sentences.length !== this.findings.childElementCount) {
@@ -351,7 +257,7 @@ class WatchStep extends MotionStep {
     }
   }
 
-  protected override discard(): void {
+  override discard(): void {
     super.discard();
     this.watch = null;
     this.inject.disabled = true;
@@ -369,7 +275,7 @@ class WatchStep extends MotionStep {
 }
 
 class FileStep extends MotionStep {
-  protected readonly kind = "file";
+  readonly show = "file";
 
   enter(): void {
     const { state, objects } = this.page.data.studio;
@@ -432,20 +338,12 @@ class FileStep extends MotionStep {
 
 /** The step of the page, with dry friction and the fall that the server simulates. */
 class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
-  private resultKey = "";
   private readonly forecast = h("p", { class: "bars-note" });
-  private readonly playback = new Playback(this.page, ["purple"], (configurations) => {
-    this.ghosts = configurations;
+  readonly show = "fall";
+  override readonly playback = new Playback(this.page, ["purple"], () => {
+    this.ghosts = this.playback.configurations;
     this.page.draw();
   });
-
-  get show(): string {
-    return this.playback.motions.length ? "fall" : "arm";
-  }
-
-  get time(): number {
-    return this.playback.motions.length ? this.playback.player.time : 0;
-  }
 
   override enter(): void {
     const kept = [...this.page.state.conditions];
@@ -456,26 +354,20 @@ class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
     const input = h("input", { type: "number", min: 0, step: 0.1, value: friction ?? "" });
     input.addEventListener("change", () => {
       this.page.studio.friction = input.value === "" ? null : Math.max(0, Number(input.value));
+      this.discard();
       this.page.changeConditions(() => undefined);
     });
     this.page.controls.append(
       h("label", {}, h("span", {}, this.text("studio_friction")), input),
-      this.row(),
+      this.row(this.button("studio_cut", () => void this.run())),
       this.forecast,
       this.playback.element,
     );
   }
 
-  private row(): HTMLElement {
-    return h("div", { class: "step-row" }, this.button("studio_cut", () => void this.run()));
-  }
-
   async run(): Promise<void> {
     const motions = await this.page.run("fall", { show: "fall" });
-    if (!motions) return;
-    this.resultKey = this.page.resultKey;
-    this.playback.open(motions, this.page.studio.time);
-    this.page.studio.time = 0;
+    if (motions) this.playback.open(motions, this.page.takeTime());
   }
 
   showReading(): void {
@@ -483,18 +375,11 @@ class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
   }
 
   override update(): void {
-    if (this.resultKey && this.resultKey === this.page.resultKey) return;
-    this.leave();
-    super.update();
+    if (!this.playback.motions.length) super.update();
   }
 
-  override leave(): void {
-    this.resultKey = "";
+  discard(): void {
     this.playback.close();
-  }
-
-  override overlay(): OverlayContent {
-    return this.playback.overlay;
   }
 }
 

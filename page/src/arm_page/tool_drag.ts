@@ -6,7 +6,7 @@ import type { ArmModel, Values } from "./arm_model";
 const MAX_STEPS = 30;
 const STARTS = 50;
 /** Largest error of a target that is reached: rad, and lengths in units of the arm's own length. */
-const REACHED_ERROR = 1e-6;
+export const REACHED_ERROR = 1e-6;
 /** Error from which on a further step only repeats rounding. */
 const ROUNDING_ERROR = 1e-12;
 

@@ -14,17 +14,13 @@ export class LiveView {
   private readonly velocities: VelocityWindows;
   private readonly what = h("p", { class: "what", "data-testid": "live-what" });
   private readonly windows: HTMLElement;
-  private readonly start: Float64Array;
-  private readonly q: Float64Array;
 
   constructor(
     private readonly experiment: Experiment,
-    private readonly arm: Arm,
+    arm: Arm,
     private readonly about: About,
   ) {
     const drawn = { experiment, arm, texts: new Texts(texts.window), plan: about.plan };
-    this.start = new Float64Array(arm.axes);
-    this.q = new Float64Array(arm.joints);
     this.arms = new ArmWindows(drawn);
     this.velocities = new VelocityWindows(drawn);
     this.windows = h("div", { class: "windows" }, ...this.arms.elements, ...this.velocities.elements);
@@ -39,10 +35,7 @@ export class LiveView {
     const said = cycle === null ? "" : this.said(cycle, steering);
     this.what.textContent = steering ? said : `${texts.still} ${said}`.trim();
     if (cycle === null) return;
-    this.q.set(cycle.q0);
-    this.arm.position(this.q, this.start);
-    this.q.set(cycle.q);
-    this.arms.draw(this.q, this.start, cycle.target);
+    this.arms.draw(cycle.q, cycle);
     this.velocities.draw(cycle.velocity);
   }
 

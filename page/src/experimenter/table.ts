@@ -24,7 +24,7 @@ class Row {
   private readonly note = h("td", { class: "note" });
 
   constructor(code: string, choose: (code: string) => void) {
-    this.button = button(`subject-${code}`, code, () => choose(code), "code");
+    this.button = button(`subject-${code}`, code, () => choose(code), "second code");
     const head = h("th", { scope: "row" }, this.button, this.kind);
     const state = h("td", { class: "state" }, this.now, this.paused);
     const trials = h("td", { class: "trials" }, this.bar, this.trials);

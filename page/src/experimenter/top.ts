@@ -6,7 +6,7 @@ import { texts } from "./texts";
 
 /** A link that opens in a new tab. */
 function opener(testid: string, label: string, help: string, href = ""): HTMLAnchorElement {
-  return h("a", { class: "button", target: "_blank", rel: "noopener", "data-testid": testid, title: help, href }, label);
+  return h("a", { class: "button second", target: "_blank", rel: "noopener", "data-testid": testid, title: help, href }, label);
 }
 
 export class Top {

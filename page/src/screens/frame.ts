@@ -3,19 +3,25 @@
 import { h, paragraphs } from "../dom";
 import type { Texts } from "../texts";
 
+interface CoverState {
+  /** The experimenter pauses the session; a trial under way continues. */
+  paused: boolean;
+  /** A trial is under way, or is being rated: no pause now. */
+  occupied: boolean;
+  /** The server cannot store anything: everything stops at once. */
+  unstored: boolean;
+  /** Reason why the session cannot continue in this page. */
+  stopped: string | null;
+}
+
 export class Frame {
-  /** Where jsPsych shows its screens. */
+  /** Where the screens are shown, one after the other. */
   readonly stage = h("main", { id: "stage", "data-testid": "stage" });
   private readonly where = h("span", { class: "where", "data-testid": "progress" });
   private readonly who = h("span", { class: "who", "data-testid": "subject" });
   private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
   private readonly cover = h("div", { class: "cover", role: "alertdialog", "aria-live": "assertive", hidden: true });
-  private paused = false;
-  private busy = false;
-  /** True if the server cannot store anything. */
-  isUnstored = false;
-  /** Reason why the session cannot continue in this page; null if it can. */
-  private reason: string | null = null;
+  private state: CoverState = { paused: false, occupied: false, unstored: false, stopped: null };
 
   constructor(private readonly texts: Texts) {
     document.documentElement.lang = texts.get("language");
@@ -42,41 +48,25 @@ export class Frame {
     if (this.line.dataset.online === "false") this.line.textContent = this.texts.get("offline", { waiting: count });
   }
 
-  /** The experimenter pauses the session; a trial under way continues. */
-  pause(yes: boolean): void {
-    this.paused = yes;
-    this.update();
+  /** Whether a trial cannot begin now. */
+  get isCovered(): boolean {
+    return !this.cover.hidden;
   }
 
-  /** The server cannot store anything any more, or can again: everything stops at once, or resumes. */
-  unstored(yes: boolean): void {
-    this.isUnstored = yes;
-    this.update();
+  get isUnstored(): boolean {
+    return this.state.unstored;
   }
 
-  /** A trial is under way, or is being rated: no pause now. */
-  set occupied(yes: boolean) {
-    this.busy = yes;
-    this.update();
-  }
-
-  get isPaused(): boolean {
-    return this.paused && !this.busy;
-  }
-
-  /** The session cannot continue in this page. */
-  stop(reason: string): void {
-    this.reason = reason;
-    this.update();
-  }
-
-  private update(): void {
-    const key = this.reason !== null ? "stopped" : this.isUnstored ? "unstored" : this.isPaused ? "paused" : null;
+  /** Change the state of the session, and cover the page where it cannot continue. */
+  set(changes: Partial<CoverState>): void {
+    this.state = { ...this.state, ...changes };
+    const { paused, occupied, unstored, stopped } = this.state;
+    const key = stopped !== null ? "stopped" : unstored ? "unstored" : paused && !occupied ? "paused" : null;
     this.stage.inert = key !== null;
     this.cover.hidden = key === null;
     if (key === null) return;
     const title = h("h1", {}, this.texts.get(`${key}_title`));
-    const text = paragraphs(this.reason ?? this.texts.get(`${key}_text`));
+    const text = paragraphs(stopped ?? this.texts.get(`${key}_text`));
     this.cover.replaceChildren(h("div", { class: "card", "data-testid": key }, title, ...text));
   }
 }

@@ -23,13 +23,12 @@ export async function showInstructions(element: HTMLElement, station: Station): 
     return showPage(element, station, { testid: `instructions-${part}`, title, text, choices: next, figure });
   };
 
-  const { q0, target } = plan.training[0] ?? { q0: [], target: [] };
-  const q = Float64Array.from(q0);
+  const task = plan.training[0] ?? { q0: [], target: [] };
   const start = new Float64Array(arm.axes);
-  arm.position(q, start);
+  arm.position(Float64Array.from(task.q0), start);
   const arms = new ArmWindows(station);
   const velocities = new VelocityWindows(station);
-  const way = target.map((v, i) => v - start[i]);
+  const way = task.target.map((v, i) => v - start[i]);
   const size = Math.hypot(...way) || 1;
   const command = way.map((v) => (EXAMPLE * station.stick.limit * v) / size);
   const more = [
@@ -38,7 +37,7 @@ export async function showInstructions(element: HTMLElement, station: Station): 
   ];
   const figure = h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements);
   const read = page(1, more, figure);
-  arms.draw(q, start, target);
+  arms.draw(task.q0, task);
   velocities.draw(command);
   await read;
   await page(2, []);

@@ -13,7 +13,7 @@ export function showRating(element: HTMLElement, station: Station, suggestion: n
       resolve(step);
     };
     const buttons = experiment.rating.map((name, k) => {
-      const properties = { type: "button", class: "step", "data-testid": `rating-${k + 1}`, onclick: () => choose(k) };
+      const properties = { type: "button", class: "second step", "data-testid": `rating-${k + 1}`, onclick: () => choose(k) };
       return h("button", properties, h("kbd", {}, String(k + 1)), h("span", {}, name));
     });
     const text = texts.get("rating_text", { count: buttons.length });

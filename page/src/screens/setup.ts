@@ -25,8 +25,6 @@ class Setup {
   private wizard: Wizard | null = null;
   private over = false;
   private readonly velocities: VelocityWindows;
-  private readonly deflection: Float64Array;
-  private readonly command: Float64Array;
   private readonly found = h("p", { class: "found", "aria-live": "polite", "data-testid": "gamepad-found" });
   private readonly how = h("p", { class: "message", "aria-live": "polite", "data-testid": "setup-message" });
   private readonly inputs: HTMLInputElement[];
@@ -40,8 +38,6 @@ class Setup {
   ) {
     const { texts, arm } = station;
     this.velocities = new VelocityWindows(station);
-    this.deflection = new Float64Array(arm.axes);
-    this.command = new Float64Array(arm.axes);
     this.inputs = KINDS.map((kind) => {
       const input = h("input", { type: "radio", name: "device", value: kind, "data-testid": `device-${kind}` });
       input.addEventListener("change", () => {
@@ -116,10 +112,7 @@ class Setup {
     this.calibrate.disabled = station.device === null || station.device.lost?.() === true;
     this.next.disabled = this.wizard !== null || this.calibrate.disabled;
     if (this.wizard !== null && pad !== undefined) this.step(pad);
-    if (station.device === null) this.deflection.fill(0);
-    else station.device.read(this.deflection);
-    station.stick.velocity(this.deflection, this.command);
-    this.velocities.draw(this.command);
+    this.velocities.drawCommand(station.stick, station.device);
   }
 
   private step(pad: Gamepad): void {

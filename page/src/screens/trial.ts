@@ -39,10 +39,7 @@ class Trial {
   private lost = false;
   private readonly arms: ArmWindows;
   private readonly velocities: VelocityWindows;
-  private readonly start: Float64Array;
   private readonly deflection: Float64Array;
-  private readonly command: Float64Array;
-  private readonly shown: Float64Array;
   private readonly controller = new AbortController();
   private readonly message = h("p", { class: "message", "aria-live": "polite", "data-testid": "message" });
   private readonly begin: HTMLButtonElement;
@@ -56,10 +53,8 @@ class Trial {
     private readonly resolve: (outcome: Outcome) => void,
   ) {
     const { texts, arm } = station;
-    [this.start, this.deflection, this.command] = [0, 1, 2].map(() => new Float64Array(arm.axes));
-    this.shown = new Float64Array(arm.joints);
+    this.deflection = new Float64Array(arm.axes);
     this.run = this.fresh();
-    arm.position(this.run.q, this.start);
     this.arms = new ArmWindows(station);
     this.velocities = new VelocityWindows(station);
     this.begin = button("start", texts.get("start"), () => this.begun());
@@ -98,7 +93,7 @@ class Trial {
     this.message.textContent = text;
     this.begin.disabled = phase === "running" || phase === "over";
     this.abort.disabled = phase !== "running";
-    this.station.frame.occupied = phase === "running" || phase === "over";
+    this.station.frame.set({ occupied: phase === "running" || phase === "over" });
   }
 
   private get howToStart(): string {
@@ -126,8 +121,7 @@ class Trial {
   private begun(): void {
     const { station, spec } = this;
     if (this.phase === "broken") return this.wait();
-    const { isPaused, isUnstored } = station.frame;
-    if (this.phase !== "waiting" || isPaused || isUnstored || station.device?.lost?.() || document.hidden) return;
+    if (this.phase !== "waiting" || station.frame.isCovered || station.device?.lost?.() || document.hidden) return;
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
@@ -204,13 +198,11 @@ class Trial {
     // The arm moves from one configuration to the next during the cycle whose command was read at its beginning.
     const share = phase === "running" ? (station.clock.now - this.cycleAt) * station.experiment.rate : 1;
     const part = Math.max(0, Math.min(1, share));
-    for (let i = 0; i < this.shown.length; i++) this.shown[i] = run.before[i] + part * (run.q[i] - run.before[i]);
-    this.arms.draw(this.shown, this.start, spec.task.target);
-    if (phase === "broken" || phase === "over") this.deflection.fill(0);
-    else station.device?.read(this.deflection);
-    station.stick.velocity(this.deflection, this.command);
-    this.velocities.draw(this.command);
-    if (phase === "running" && spec.record === null) this.hint();
+    this.arms.draw(run.before.map((before, i) => before + part * (run.q[i] - before)), spec.task);
+    this.velocities.drawCommand(station.stick, phase === "broken" || phase === "over" ? null : station.device);
+    if (phase === "running" && spec.record === null) {
+      setText(this.message, station.texts.get(run.inside ? "hint_inside" : "trial_running"));
+    }
   }
 
   private watch(): void {
@@ -222,10 +214,6 @@ class Trial {
       this.message.textContent = lost ? station.texts.get("broken_pad-lost") : this.howToStart;
     }
     if (station.device?.triggered?.()) this.begun();
-  }
-
-  private hint(): void {
-    setText(this.message, this.station.texts.get(this.run.inside ? "hint_inside" : "trial_running"));
   }
 }
 

@@ -1,9 +1,11 @@
 /** The two windows of Fig. 1, one pair for each view: the arm with its target, and the commanded velocity. */
 
 import { createSvg, h } from "../dom";
+import type { Device } from "../input/device";
 import type { TrainingTask } from "../messages";
 import { projectPoint, projectTask } from "../projection";
 import type { Station } from "../station";
+import type { Stick } from "../stick";
 
 /** Smallest width of a line, px. */
 const LINE_WIDTH_PX = 2;
@@ -50,6 +52,9 @@ class Windows {
 }
 
 export class VelocityWindows extends Windows {
+  private readonly deflection = new Float64Array(this.station.arm.axes);
+  private readonly command = new Float64Array(this.station.arm.axes);
+
   constructor(station: Drawn) {
     super(station, "velocity");
   }
@@ -57,6 +62,14 @@ export class VelocityWindows extends Windows {
   /** Let the device use the windows as its surfaces, if it needs any. */
   attach(station: Station): void {
     this.drawings.forEach((drawing, k) => station.device?.attach?.(drawing, station.experiment.views[k]));
+  }
+
+  /** Draw the velocity that a device commands now; without one, a command of zero. */
+  drawCommand(stick: Stick, device: Device | null): void {
+    this.deflection.fill(0);
+    device?.read(this.deflection);
+    stick.velocity(this.deflection, this.command);
+    this.draw(this.command);
   }
 
   /** Draw a commanded velocity, m/cycle, with its limit and its dead zone. */
@@ -77,27 +90,27 @@ export class VelocityWindows extends Windows {
 }
 
 export class ArmWindows extends Windows {
-  private readonly points: Float64Array;
-  private readonly visible: { middles: Point[]; extent: number };
+  private readonly points = new Float64Array(3 * this.station.arm.markers);
+  private readonly start = new Float64Array(this.station.arm.axes);
+  private readonly visible = enclosePoses(this.station);
 
   constructor(station: Drawn) {
     super(station, "arm");
-    this.points = new Float64Array(3 * station.arm.markers);
-    this.visible = enclosePoses(station);
   }
 
-  /** Draw the arm at joint angles `q` with the start and the target of a task, m, and the path from the tool to the target. */
-  draw(q: Float64Array, start: ArrayLike<number>, target: ArrayLike<number>): void {
+  /** Draw the arm at joint angles `q` with the start and the target of a task, and the path from the tool to the target. */
+  draw(q: ArrayLike<number>, { q0, target }: Pose): void {
     const { arm, experiment } = this.station;
     const { middles, extent } = this.visible;
-    arm.points(q, this.points);
+    arm.points(Float64Array.from(q), this.points);
+    arm.position(Float64Array.from(q0), this.start);
     experiment.views.forEach((view, k) => {
       const scale = this.fit(this.drawings[k]) / BORDER_FACTOR / extent;
       const [middleX, middleY] = middles[k];
       const place = ([x, y]: Point): Point => [(x - middleX) * scale, (middleY - y) * scale];
       const chain = Array.from({ length: arm.markers }, (_, i) => place(projectPoint(view, this.points, 3 * i)));
       const [base, tool] = [chain[0], chain[chain.length - 1]];
-      const [[startX, startY], goal] = [start, target].map((row) => place(projectTask(view, row)));
+      const [[startX, startY], goal] = [this.start, target].map((row) => place(projectTask(view, row)));
       this.drawings[k].replaceChildren(
         ...(experiment.reach === null ? [] : [circle("boundary", [0, 0], experiment.reach * scale)]),
         createSvg("path", { class: "start", d: `M${startX - 3.5} ${startY - 3.5}l7 7m0-7l-7 7` }),

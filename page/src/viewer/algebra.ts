@@ -18,6 +18,12 @@ export function across(a: Vector): Vector {
   return unit(cross(a, x <= y && x <= z ? [1, 0, 0] : y <= z ? [0, 1, 0] : [0, 0, 1]));
 }
 
+/** Two directions at right angles to a unit vector; for z upward these are x and y. */
+export function level(up: Vector): [Vector, Vector] {
+  const first = Math.abs(up[0]) < 0.9 ? unit(sum([1, 0, 0], up, -up[0])) : across(up);
+  return [first, cross(up, first)];
+}
+
 export function times(a: Pose, b: Pose): Pose {
   const out = [];
   for (let i = 0; i < 12; i += 4) {
@@ -65,8 +71,8 @@ export function frames(chain: Chain, q: number[]): Pose[] {
 }
 
 /** Rows of a motion between two frames; `at` is a frame, with its fraction. */
-export function between(rows: number[][], at: number): number[] {
+export function between(rows: ArrayLike<number>[], at: number): number[] {
   const k = Math.min(Math.max(Math.floor(at), 0), rows.length - 1);
   const after = rows[Math.min(k + 1, rows.length - 1)];
-  return rows[k].map((x, j) => x + (at - k) * (after[j] - x));
+  return Array.from(rows[k], (x, j) => x + (at - k) * (after[j] - x));
 }

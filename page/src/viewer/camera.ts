@@ -1,6 +1,6 @@
 /** Camera of a view, and the projection of points to the picture. */
 
-import { across, cross, dot, size, sum, unit } from "./algebra";
+import { cross, dot, level, sum } from "./algebra";
 import type { Scene, Vector } from "./scene";
 
 const HALF = Math.tan((14 * Math.PI) / 180); // of the angle of view
@@ -15,10 +15,7 @@ export class Camera {
   private readonly north: Vector;
 
   constructor(private readonly scene: Scene) {
-    // For z upward these are x and y, so that the azimuth counts from x as everywhere in the file.
-    const up = scene.up;
-    this.east = Math.abs(up[0]) < 0.9 ? unit(sum([1, 0, 0], up, -up[0])) : across(up);
-    this.north = cross(up, this.east);
+    [this.east, this.north] = level(scene.up);
     this.reset();
   }
 
@@ -88,5 +85,3 @@ export function project(matrix: Float32Array, p: Vector, width: number, height: 
   const w = row(3);
   return [(0.5 + (0.5 * row(0)) / w) * width, (0.5 - (0.5 * row(1)) / w) * height, w];
 }
-
-export const far = (a: Vector, b: Vector): number => size(sum(a, b, -1));

@@ -5,27 +5,33 @@ import { Player } from "../player";
 import type { Scene } from "./scene";
 import type { View } from "./view";
 
-/** Add the controls to the page; the returned function shows a frame of the motion. */
-export function controls(view: View): (k: number) => void {
+/** Add the controls of a view to the page. */
+export function addControls(view: View): void {
   const { box, scene } = view;
   const row = h("div", { class: "view3d-row" });
-  const last = view.length - 1;
-  const player = new Player({
-    texts: { play: "Play", pause: "Pause", time: "Time of the motion" },
-    show: () => view.frame(player.time),
-    format: (k) => scene.readings[Math.round(k)] ?? `${scene.time[Math.round(k)].toPrecision(3)} s`,
-  });
-  player.input.step = "1";
   if (scene.time.length) {
+    const last = scene.time.length - 1;
+    const format = (k: number): string => scene.readings[Math.round(k)] ?? `${scene.time[Math.round(k)].toPrecision(3)} s`;
+    const texts = { play: "Play", pause: "Pause", time: "Time of the motion" };
+    const player = new Player(texts, format, () => view.frame(player.time));
+    player.input.step = "1";
     player.setRange(last, last / scene.seconds);
-    player.setTime(0);
+    player.showTime(0);
     row.append(player.button, player.input, player.readout);
   }
   row.append(...createViewButtons(view));
-  const fixed = scene.joints.map((joint, k) => (scene.locked[k] === null ? "" : `${joint.name} (locked)`));
-  const sliders = new JointSliders(scene, [...view.configurations()[0]], (q) => view.pose(q), fixed);
-  box.querySelector(".view3d-controls")?.append(row, ...(scene.sliders ? [sliders.element] : []));
-  return scene.time.length ? (k) => player.setTime(k) : () => undefined;
+  box.querySelector(".view3d-controls")?.append(row);
+  if (!scene.sliders) return;
+  const labels = scene.joints.map(({ name }, k) => (scene.locked[k] === null ? name : `${name} (locked)`));
+  const movable = scene.locked.map((time) => time === null);
+  const show = (q: number[]): void => {
+    view.pose(q);
+    sliders.update(q, movable);
+  };
+  const [q] = view.configurations();
+  const sliders = new JointSliders(scene, q, labels, show);
+  sliders.update(q, movable);
+  row.after(sliders.element);
 }
 
 /** Buttons that reset the camera and that show or hide the names of the joints. */
@@ -55,42 +61,34 @@ export function createToggle(label: string, change: (on: boolean) => void): HTML
 /** A slider for each joint; one without limits goes once round. */
 export class JointSliders {
   readonly element: HTMLDetailsElement;
-  private readonly updates: ((value: number, enabled: boolean) => void)[];
+  private q: number[] = [];
+  private readonly rows: { input: HTMLInputElement; readout: HTMLOutputElement; slides: boolean }[];
 
-  /** `fixed` has the label of each joint that cannot move, and an empty text for the others. */
-  constructor(scene: Scene, private q: number[], change: (q: number[]) => void, fixed: string[] = []) {
-    const rows: HTMLElement[] = [];
-    this.updates = scene.joints.map((joint, k) => {
-      const free = joint.slides ? scene.size : Math.PI;
-      const [low, high] = [joint.low ?? Math.min(-free, q[k]), joint.high ?? Math.max(free, q[k])];
-      const slider = h("input", { type: "range", min: low, max: high, step: "any", value: q[k] });
-      const readout = h("output");
-      const showValue = (): void => {
-        const text = joint.slides ? `${this.q[k].toFixed(3)} m` : `${((180 * this.q[k]) / Math.PI).toFixed(1)}°`;
-        if (readout.textContent === text) return;
-        readout.textContent = text;
-        slider.setAttribute("aria-valuetext", text);
-      };
-      slider.addEventListener("input", () => {
-        this.q[k] = Number(slider.value);
-        showValue();
-        change([...this.q]);
-      });
-      slider.disabled = Boolean(fixed[k]);
-      showValue();
-      rows.push(h("label", { class: "view3d-joint" }, h("span", {}, fixed[k] || joint.name), slider, readout));
-      return (value, enabled) => {
-        if (Number(slider.value) !== value) slider.value = String(value);
-        slider.disabled = !enabled;
-        showValue();
-      };
+  /** `change` is called with a configuration, rad and m, after a slider was moved from `q`. */
+  constructor({ joints, size }: Scene, q: ArrayLike<number>, labels: string[], change: (q: number[]) => void) {
+    this.rows = joints.map(({ slides, low, high }, k) => {
+      const range = slides ? size : Math.PI;
+      const [min, max] = [low ?? Math.min(-range, q[k]), high ?? Math.max(range, q[k])];
+      const input = h("input", { type: "range", min, max, step: "any" });
+      input.addEventListener("input", () => change(this.q.map((value, j) => (j === k ? input.valueAsNumber : value))));
+      return { input, readout: h("output"), slides };
     });
-    this.element = h("details", {}, h("summary", {}, "Move the joints"), ...rows);
+    const labelled = this.rows.map(({ input, readout }, k) =>
+      h("label", { class: "view3d-joint" }, h("span", {}, labels[k]), input, readout),
+    );
+    this.element = h("details", {}, h("summary", {}, "Move the joints"), ...labelled);
   }
 
   /** Show a configuration, rad and m; joints that are not enabled cannot be moved. */
   update(q: ArrayLike<number>, enabled: boolean[]): void {
     this.q = Array.from(q);
-    this.updates.forEach((update, k) => update(q[k], enabled[k]));
+    this.rows.forEach(({ input, readout, slides }, k) => {
+      input.disabled = !enabled[k];
+      const text = slides ? `${q[k].toFixed(3)} m` : `${((180 * q[k]) / Math.PI).toFixed(1)}°`;
+      if (input.valueAsNumber !== q[k]) input.value = String(q[k]);
+      if (readout.textContent === text) return;
+      readout.textContent = text;
+      input.setAttribute("aria-valuetext", text);
+    });
   }
 }

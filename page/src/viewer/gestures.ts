@@ -32,7 +32,10 @@ export function listenToPointers(view: View): void {
     view.draw();
   });
   const up = (event: PointerEvent): void => {
-    if (down.delete(event.pointerId) && event.type === "pointerup" && moved < 4) pick(view, event);
+    const { left, top } = canvas.getBoundingClientRect();
+    if (down.delete(event.pointerId) && event.type === "pointerup" && moved < 4) {
+      view.select(event.clientX - left, event.clientY - top);
+    }
   };
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
@@ -66,18 +69,4 @@ export function listenToPointers(view: View): void {
     action();
     view.draw();
   });
-}
-
-/** Choose the point on which the visitor has clicked, or report the click. */
-function pick(view: View, event: PointerEvent): void {
-  const { canvas, scene } = view;
-  const bounds = canvas.getBoundingClientRect();
-  let [best, nearest] = [-1, Infinity];
-  scene.points.forEach((point, k) => {
-    const p = view.project(point);
-    const off = Math.hypot(p[0] - event.clientX + bounds.left, p[1] - event.clientY + bounds.top);
-    if (off < 9 && p[2] < nearest) [best, nearest] = [k, p[2]];
-  });
-  if (best >= 0) view.choose(best);
-  else view.onClick?.([event.clientX - bounds.left, event.clientY - bounds.top]);
 }

@@ -1,11 +1,12 @@
 /** Draws each part as the convex hull of its projected corners on a canvas; needs no graphics card. */
 
-import { across, cross, sum, transform, unit } from "./algebra";
+import { sum, transform, unit } from "./algebra";
 import { project } from "./camera";
 import { css } from "./palette";
-import type { Body, Lines, Picture, Renderer } from "./renderer";
+import type { Body, Picture } from "./renderer";
 import type { Part, Vector } from "./scene";
 import { vertices } from "./shapes";
+import { circle } from "./things";
 
 /** x, y, and possibly more, pixels. */
 type Point = number[];
@@ -42,13 +43,7 @@ export function corners({ mesh, tube }: Part): Vector[] {
   }
   const [a, b, c, d, e, f, radius] = tube as number[];
   const axis = unit([d - a, e - b, f - c]);
-  const first = across(axis);
-  const second = cross(axis, first);
-  return Array.from({ length: 2 * RING_CORNERS }, (_, k) => {
-    const angle = (2 * Math.PI * k) / RING_CORNERS;
-    const rim = sum(k < RING_CORNERS ? [a, b, c] : [d, e, f], first, radius * Math.cos(angle));
-    return sum(rim, second, radius * Math.sin(angle));
-  });
+  return [[a, b, c], [d, e, f]].flatMap((center) => circle(center as Vector, axis, radius, RING_CORNERS));
 }
 
 /** Twice the area of the triangle a, b, c, above 0 if it runs from x to y. */
@@ -102,15 +97,13 @@ function clearLayer(width: number, height: number): CanvasRenderingContext2D {
   return layer;
 }
 
-export class HullRenderer implements Renderer {
-  readonly hidesFarther = false;
+export class HullRenderer {
+  /** Whether near solids hide those behind them in any order; otherwise a solid covers those before it. */
+  readonly hidesFarther: boolean = false;
 
-  constructor(private readonly picture: Picture) {
+  constructor(protected readonly picture: Picture) {
     picture.onto.lineJoin = picture.onto.lineCap = "round";
   }
-
-  over(): void {}
-  finish(): void {}
 
   /** Corners of a body in pixels, and their mean distance before the eye, m; none if it extends behind the eye. */
   private place({ part, pose }: Body): { points: Point[]; depth: number } | null {
@@ -135,9 +128,10 @@ export class HullRenderer implements Renderer {
     return { points, depth };
   }
 
-  solids(bodies: Body[], opacity = 1): void {
-    const { onto, palette } = this.picture;
-    const { width, height, clientWidth } = onto.canvas;
+  /** Draw bodies; those that are over all others are the last ones. */
+  solids(bodies: Body[], opacity = 1, _over = false): void {
+    const { onto, palette, ratio } = this.picture;
+    const { width, height } = onto.canvas;
     const drawn = bodies.flatMap((body) => {
       const placed = this.place(body);
       return placed ? [{ ...body, ...placed, isObject: body.part.object === true }] : [];
@@ -147,7 +141,7 @@ export class HullRenderer implements Renderer {
     // Parts of a transparent arm do not show through each other, because it is drawn on a layer.
     const target = opacity < 1 && drawn.length > 1 ? clearLayer(width, height) : onto;
     target.lineJoin = "round";
-    target.lineWidth = (OUTLINE_PX * width) / clientWidth;
+    target.lineWidth = OUTLINE_PX * ratio;
     target.strokeStyle = css(palette.outline);
     const trace = (points: Point[], color: Vector): void => {
       target.beginPath();
@@ -173,8 +167,9 @@ export class HullRenderer implements Renderer {
     onto.globalAlpha = 1;
   }
 
-  lines({ points, color, width, opacity = 1 }: Lines): void {
-    const { matrix, onto } = this.picture;
+  /** Draw segments between pairs of points; `width` in CSS pixels. */
+  lines(points: Vector[], color: Vector, width: number, opacity = 1): void {
+    const { matrix, onto, ratio } = this.picture;
     onto.beginPath();
     for (let k = 0; k + 1 < points.length; k += 2) {
       const ends = clip(matrix, points[k], points[k + 1]);
@@ -184,17 +179,18 @@ export class HullRenderer implements Renderer {
       onto.lineTo(end[0], end[1]);
     }
     onto.strokeStyle = css(color, opacity);
-    onto.lineWidth = width;
+    onto.lineWidth = width * ratio;
     onto.stroke();
   }
 
+  /** Draw discs; `width` in CSS pixels. */
   dots(points: Vector[], colors: Vector[], width: number): void {
-    const { matrix, onto } = this.picture;
+    const { matrix, onto, ratio } = this.picture;
     points.forEach((point, k) => {
       const [x, y, depth] = project(matrix, point, onto.canvas.width, onto.canvas.height);
       if (depth < NEAREST_M) return;
       onto.beginPath();
-      onto.arc(x, y, width / 2, 0, 2 * Math.PI);
+      onto.arc(x, y, (width * ratio) / 2, 0, 2 * Math.PI);
       onto.fillStyle = css(colors[k]);
       onto.fill();
     });

@@ -12,8 +12,10 @@ export interface Label {
   strong?: boolean;
 }
 
+export const FONT = 'Arial, Helvetica, "Liberation Sans", sans-serif';
+
 /** Write text beside places, those nearest to the eye first; text that would overlap is omitted unless it is important. */
-export function writeLabels(labels: Label[], { onto, matrix, palette: { paper } }: Picture, ratio: number): void {
+export function writeLabels(labels: Label[], { onto, matrix, palette: { paper }, ratio }: Picture): void {
   const { width, height } = onto.canvas;
   const tall = 12 * ratio;
   const taken: number[][] = [];
@@ -23,20 +25,13 @@ export function writeLabels(labels: Label[], { onto, matrix, palette: { paper } 
   onto.textBaseline = "middle";
   onto.lineJoin = "round";
   for (const { label, p } of seen) {
-    const letter = label.text.length < 2;
-    onto.font = `${label.strong ? "bold " : ""}${tall}px Arial, Helvetica, "Liberation Sans", sans-serif`;
+    onto.font = `${label.strong ? "bold " : ""}${tall}px ${FONT}`;
     const long = onto.measureText(label.text).width;
     const gap = 14 * ratio;
-    const tries = letter
-      ? [[p[0] - long / 2, p[1]]]
-      : [
-          [p[0] + gap, p[1]],
-          [p[0] - gap - long, p[1]],
-          [p[0] + gap, p[1] - 1.2 * tall],
-          [p[0] - gap - long, p[1] + 1.2 * tall],
-          [p[0] + gap, p[1] + 1.2 * tall],
-          [p[0] - long / 2, p[1] - 2 * tall],
-        ];
+    const besides = [0, -1.2, 1.2].flatMap((lines) =>
+      [p[0] + gap, p[0] - gap - long].map((x) => [x, p[1] + lines * tall]),
+    );
+    const tries = label.text.length < 2 ? [[p[0] - long / 2, p[1]]] : besides;
     const box = ([x, y]: number[]): number[] => [x, y - tall / 2, x + long, y + tall / 2];
     const free = tries.find((place) => {
       const [a, b, c, d] = box(place);

@@ -1,5 +1,6 @@
 /** Replaces the static pictures of a page by views that can be rotated, if the browser has a canvas. */
 
+import { addControls } from "./controls";
 import type { Scene } from "./scene";
 import { View } from "./view";
 
@@ -16,6 +17,7 @@ for (const box of document.querySelectorAll<Box>(".view3d")) {
     const body = document.querySelector(`.view3d-body[data-key="${scene.parts}"] script`);
     scene.parts = JSON.parse(body?.textContent ?? "") as Scene["parts"];
     box.view3d = new View(box, canvas, scene);
+    addControls(box.view3d);
     if (hint) {
       hint.textContent = "Drag or use the arrow keys to rotate, + and - or the wheel to zoom, and 0 to reset. Shift and drag to move.";
     }

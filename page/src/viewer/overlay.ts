@@ -1,5 +1,6 @@
 /** SVG over the picture of an arm: ellipsoids, lost directions, trails, locks, and labels; CSS classes colour them. */
 
+import type { Ellipsoid } from "../arm_page/failures";
 import { createSvg } from "../dom";
 import { place, sum } from "./algebra";
 import { project } from "./camera";
@@ -8,11 +9,8 @@ import type { Vector } from "./scene";
 import { mark } from "./things";
 import type { View } from "./view";
 
-export interface DrawnEllipsoid {
+interface DrawnEllipsoid extends Ellipsoid {
   center: Vector;
-  /** Half axes, m/s, and the unit vector of each in the world. */
-  halfAxes: Vector;
-  directions: [Vector, Vector, Vector];
   /** Before or after the lock. */
   style: "before" | "after";
 }
@@ -60,7 +58,7 @@ const group = (name: string, ...children: SVGElement[]): SVGElement => {
 };
 
 /** Draw three principal curves, and the filled outline of the ellipsoid after a lock. */
-export function drawEllipsoid(locate: Project, { center, halfAxes, directions, style }: DrawnEllipsoid): SVGElement {
+function drawEllipsoid(locate: Project, { center, halfAxes, directions, style }: DrawnEllipsoid): SVGElement {
   const placeShare = (share: Vector): number[] =>
     locate(share.reduce((point, x, k) => sum(point, directions[k], x * ELLIPSOID_SCALE_S * halfAxes[k]), center));
   const curves = [0, 1, 2].map((k) =>
@@ -78,7 +76,7 @@ export function drawEllipsoid(locate: Project, { center, halfAxes, directions, s
 }
 
 /** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label within the width in pixels. */
-export function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
+function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
   const { lines, end } = mark({ twist, words: label }, center, length);
   const segments = lines.flatMap((start, k) => (k % 2 ? [] : [formatPath([locate(start), locate(lines[k + 1])])]));
   const [x, y] = locate(end);
@@ -87,11 +85,11 @@ export function drawLostMotion(locate: Project, { center, twist, label }: LostMo
   return group("lost", createSvg("path", { d: segments.join("") }), text);
 }
 
-export function drawTrail(locate: Project, { points, style }: Trail): SVGElement {
+function drawTrail(locate: Project, { points, style }: Trail): SVGElement {
   return createSvg("path", { class: `overlay-trail overlay-${style}`, d: formatPath(points.map(locate)) });
 }
 
-export function drawPadlock(locate: Project, joint: Vector): SVGElement {
+function drawPadlock(locate: Project, joint: Vector): SVGElement {
   const [x, y] = locate(joint);
   const [shackle, body] = ["M-4 -1V-5A4 4 0 0 1 4 -5V-1", "M-7 -1H7V9H-7Z"];
   const lock = group("padlock", createSvg("path", { d: shackle }), createSvg("path", { class: "overlay-fill", d: body }));

@@ -1,12 +1,13 @@
-/** Draws triangles, lines and dots with WebGL. One for all views of a page: browsers keep only a few contexts alive. */
+/** Draws solids with WebGL, so that they intersect as they are. One canvas for all views: browsers keep few contexts alive. */
 
-import type { Body, Lines, Picture, Renderer } from "./renderer";
-import type { Part, Vector } from "./scene";
+import { HullRenderer } from "./hulls";
+import type { Body, Picture } from "./renderer";
+import type { Part } from "./scene";
 import { triangles } from "./shapes";
 
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // names of renderers that use the processor
 
-const SOLID = `
+const VERTEX = `
 attribute vec3 place, normal;
 uniform mat4 seen, pose;
 varying vec3 n, p;
@@ -16,7 +17,7 @@ void main() {
   p = world.xyz;
   gl_Position = seen * world;
 }`;
-const SHADED = `
+const FRAGMENT = `
 precision highp float;
 uniform vec3 color, eye, up, side;
 uniform float opacity;
@@ -31,50 +32,15 @@ void main() {
   light *= 0.55 + 0.45 * smoothstep(0.0, 0.45, front);
   gl_FragColor = vec4(color * light, 1.0) * opacity;
 }`;
-const LINE = `
-attribute vec3 place, other;
-attribute float side;
-uniform mat4 seen;
-uniform vec2 pixels;
-uniform float width;
-void main() {
-  vec4 a = seen * vec4(place, 1.0), b = seen * vec4(other, 1.0);
-  vec2 way = normalize((b.xy / b.w - a.xy / a.w) * pixels + vec2(1e-9, 0.0));
-  a.xy += side * width * vec2(-way.y, way.x) / pixels * a.w;
-  a.z -= 2e-4 * a.w;
-  gl_Position = a;
-}`;
-const FLAT = `
-precision highp float;
-uniform vec3 color;
-uniform float opacity;
-void main() { gl_FragColor = vec4(color, 1.0) * opacity; }`;
-const DOT = `
-attribute vec3 place, paint;
-uniform mat4 seen;
-uniform float width;
-varying vec3 c;
-void main() { c = paint; gl_Position = seen * vec4(place, 1.0); gl_PointSize = width; }`;
-const ROUND = `
-precision highp float;
-varying vec3 c;
-void main() {
-  float r = length(gl_PointCoord - 0.5);
-  if (r > 0.5) discard;
-  gl_FragColor = vec4(c * (r > 0.38 ? 0.7 : 1.0), 1.0);
-}`;
 
-export class Painter implements Renderer {
-  readonly hidesFarther = true;
+/** A canvas with the program that shades triangles. */
+export class Painter {
   readonly canvas = document.createElement("canvas");
   /** Whether the processor draws, which is slower than hulls. */
   readonly software: boolean;
-  private readonly gl: WebGLRenderingContext;
-  private readonly programs: Record<"solid" | "line" | "dot", WebGLProgram>;
+  readonly gl: WebGLRenderingContext;
+  private readonly program: WebGLProgram;
   private readonly buffers = new WeakMap<Part, { buffer: WebGLBuffer; count: number }>();
-  private readonly scratch: WebGLBuffer;
-  private program: WebGLProgram;
-  private picture: Picture | null = null;
 
   /** Throws where there is no WebGL. */
   constructor() {
@@ -83,159 +49,94 @@ export class Painter implements Renderer {
     this.gl = gl;
     const info = gl.getExtension("WEBGL_debug_renderer_info");
     this.software = SOFTWARE.test(String(gl.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
-    this.programs = { solid: this.built(SOLID, SHADED), line: this.built(LINE, FLAT), dot: this.built(DOT, ROUND) };
-    this.program = this.programs.solid;
-    this.scratch = gl.createBuffer() as WebGLBuffer;
-    gl.enable(gl.DEPTH_TEST);
+    this.program = gl.createProgram() as WebGLProgram;
+    for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]] as const) {
+      const shader = gl.createShader(kind) as WebGLShader;
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(this.program, shader);
+    }
+    gl.linkProgram(this.program);
+    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(this.program) ?? "WebGL");
+    gl.useProgram(this.program);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.LEQUAL);
   }
 
-  get lost(): boolean {
-    return this.gl.isContextLost();
-  }
-
-  private built(vertex: string, fragment: string): WebGLProgram {
-    const gl = this.gl;
-    const program = gl.createProgram() as WebGLProgram;
-    for (const [kind, text] of [
-      [gl.VERTEX_SHADER, vertex],
-      [gl.FRAGMENT_SHADER, fragment],
-    ] as const) {
-      const shader = gl.createShader(kind) as WebGLShader;
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program) ?? "WebGL");
-    return program;
-  }
-
-  begin(picture: Picture): this {
+  /** Begin a picture, in which nothing hides what is drawn. */
+  begin({ onto: { canvas: { width, height } }, matrix, eye, up, right }: Picture): void {
     const { canvas, gl } = this;
-    const { width, height } = picture.onto.canvas;
     // Only ever larger: a new size is a new picture for the graphics card.
     if (canvas.width < width) canvas.width = width;
     if (canvas.height < height) canvas.height = height;
     gl.viewport(0, 0, width, height);
-    gl.clearColor(0, 0, 0, 0);
-    gl.depthMask(true);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    this.picture = picture;
-    return this;
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    this.set({ seen: matrix, eye, up, side: right });
   }
 
-  /** Copy the picture onto the canvas of its view. */
-  finish(): void {
-    const { onto } = this.picture as Picture;
-    const { width, height } = onto.canvas;
-    onto.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
-  }
-
-  private use(name: "solid" | "line" | "dot"): void {
-    this.program = this.programs[name];
-    this.gl.useProgram(this.program);
-    this.gl.uniformMatrix4fv(this.uniform("seen"), false, (this.picture as Picture).matrix);
-  }
-
-  private uniform(name: string): WebGLUniformLocation | null {
-    return this.gl.getUniformLocation(this.program, name);
-  }
-
-  private attributes(layout: [string, number][]): void {
-    const gl = this.gl;
-    const stride = 4 * layout.reduce((n, [, size]) => n + size, 0);
-    let offset = 0;
-    for (let k = 0; k < 3; k++) gl.disableVertexAttribArray(k);
-    for (const [name, size] of layout) {
-      const at = gl.getAttribLocation(this.program, name);
-      if (at >= 0) {
-        gl.enableVertexAttribArray(at);
-        gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
-      }
-      offset += 4 * size;
+  /** Set uniform variables: numbers, vectors, and matrices. */
+  private set(values: Record<string, number[] | Float32Array>): void {
+    for (const [name, value] of Object.entries(values)) {
+      const at = this.gl.getUniformLocation(this.program, name);
+      if (value.length > 3) this.gl.uniformMatrix4fv(at, false, value);
+      else this.gl[`uniform${value.length as 1 | 3}fv`](at, value);
     }
   }
 
-  /** Bodies, each where a pose puts it. See-through ones hide what is behind their own front. */
-  solids(bodies: Body[], opacity = 1): void {
-    const gl = this.gl;
-    const { eye, up, right, palette } = this.picture as Picture;
-    this.use("solid");
-    gl.uniform3fv(this.uniform("eye"), eye);
-    gl.uniform3fv(this.uniform("up"), up);
-    gl.uniform3fv(this.uniform("side"), right);
-    gl.uniform1f(this.uniform("opacity"), opacity);
-    const pose = this.uniform("pose");
-    const color = this.uniform("color");
+  /** Draw bodies, each where a pose puts it; those that are over all others hide nothing, and nothing hides them. */
+  draw(bodies: Body[], { onto, palette }: Picture, opacity: number, over: boolean): void {
+    const { canvas, gl } = this;
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    this.set({ opacity: [opacity] });
+    const enable = (capability: number, on: boolean): void => (on ? gl.enable(capability) : gl.disable(capability));
+    enable(gl.DEPTH_TEST, !over);
     // Where a see-through body is at the place of a solid one, the solid one is seen.
-    if (opacity < 1) gl.enable(gl.POLYGON_OFFSET_FILL);
-    else gl.disable(gl.POLYGON_OFFSET_FILL);
+    enable(gl.POLYGON_OFFSET_FILL, opacity < 1);
     gl.polygonOffset(1, 8);
+    // See-through bodies hide what is behind their own front.
     for (const painted of opacity < 1 ? [false, true] : [true]) {
       gl.colorMask(painted, painted, painted, painted);
-      for (const body of bodies) {
-        const count = this.bind(body.part);
-        this.attributes([["place", 3], ["normal", 3]]);
-        const m = body.pose;
-        gl.uniformMatrix4fv(pose, false, [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]));
-        gl.uniform3fv(color, palette.dark ? body.color.map((x) => 0.25 + 0.75 * x) : body.color);
+      for (const { part, pose: m, color } of bodies) {
+        const count = this.bind(part);
+        this.set({
+          pose: [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]),
+          color: palette.dark ? color.map((x) => 0.25 + 0.75 * x) : color,
+        });
         gl.drawArrays(gl.TRIANGLES, 0, count);
       }
     }
+    const { width, height } = onto.canvas;
+    onto.drawImage(canvas, 0, canvas.height - height, width, height, 0, 0, width, height);
   }
 
   /** Select the buffer of a part, and return how many vertices it has. */
   private bind(part: Part): number {
-    const gl = this.gl;
-    const known = this.buffers.get(part);
-    const buffer = known?.buffer ?? (gl.createBuffer() as WebGLBuffer);
+    const { gl, program } = this;
+    const shape = this.buffers.has(part) ? null : triangles(part);
+    const { buffer, count } = this.buffers.get(part) ?? { buffer: gl.createBuffer(), count: (shape?.length ?? 0) / 6 };
+    this.buffers.set(part, { buffer, count });
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    if (known) return known.count;
-    const shape = triangles(part);
-    gl.bufferData(gl.ARRAY_BUFFER, shape, gl.STATIC_DRAW);
-    this.buffers.set(part, { buffer, count: shape.length / 6 });
-    return shape.length / 6;
+    if (shape) gl.bufferData(gl.ARRAY_BUFFER, shape, gl.STATIC_DRAW);
+    ["place", "normal"].forEach((name, k) => {
+      const at = gl.getAttribLocation(program, name);
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 24, 12 * k);
+    });
+    return count;
+  }
+}
+
+/** Draws lines and dots as the hulls do, and solids with a painter. */
+export class SolidRenderer extends HullRenderer {
+  override readonly hidesFarther = true;
+
+  constructor(picture: Picture, private readonly painter: Painter) {
+    super(picture);
+    painter.begin(picture);
   }
 
-  lines({ points, color, width, opacity = 1 }: Lines): void {
-    const gl = this.gl;
-    const data: number[] = [];
-    for (let k = 0; k + 1 < points.length; k += 2) {
-      const [a, b] = [points[k], points[k + 1]];
-      // Seen from b the sides are swapped.
-      const corners = [[...a, ...b, 1], [...a, ...b, -1], [...b, ...a, 1], [...b, ...a, -1]];
-      for (const j of [0, 1, 2, 0, 2, 3]) data.push(...corners[j]);
-    }
-    if (!data.length) return;
-    this.use("line");
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
-    this.attributes([["place", 3], ["other", 3], ["side", 1]]);
-    const { width: right, height: down } = (this.picture as Picture).onto.canvas;
-    gl.uniform2fv(this.uniform("pixels"), [right / 2, down / 2]);
-    gl.uniform1f(this.uniform("width"), width / 2);
-    gl.uniform3fv(this.uniform("color"), color);
-    gl.uniform1f(this.uniform("opacity"), opacity);
-    gl.drawArrays(gl.TRIANGLES, 0, data.length / 7);
-  }
-
-  dots(points: Vector[], colors: Vector[], width: number): void {
-    if (!points.length) return;
-    const gl = this.gl;
-    this.use("dot");
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(points.flatMap((p, k) => [...p, ...colors[k]])), gl.DYNAMIC_DRAW);
-    this.attributes([["place", 3], ["paint", 3]]);
-    gl.uniform1f(this.uniform("width"), width);
-    gl.drawArrays(gl.POINTS, 0, points.length);
-  }
-
-  /** Whatever is drawn next hides nothing, and is hidden by nothing, or as usual again. */
-  over(on: boolean): void {
-    if (on) this.gl.disable(this.gl.DEPTH_TEST);
-    else this.gl.enable(this.gl.DEPTH_TEST);
+  override solids(bodies: Body[], opacity = 1, over = false): void {
+    this.painter.draw(bodies, this.picture, opacity, over);
   }
 }

@@ -1,7 +1,7 @@
-/** Choice between WebGL, for scenes with surroundings, and hulls in two dimensions, which need no graphics card. */
+/** Choice between WebGL, for arms among objects, and hulls in two dimensions, which need no graphics card. */
 
 import { HullRenderer } from "./hulls";
-import { Painter } from "./painter";
+import { Painter, SolidRenderer } from "./painter";
 import type { Palette } from "./palette";
 import type { Part, Pose, Scene, Vector } from "./scene";
 
@@ -13,6 +13,8 @@ export interface Picture {
   up: Vector;
   right: Vector;
   palette: Palette;
+  /** Pixels of the canvas for a CSS pixel. */
+  ratio: number;
 }
 
 export interface Body {
@@ -22,38 +24,19 @@ export interface Body {
   color: Vector;
 }
 
-/** One colour, `width` in pixels; two points a segment. */
-export interface Lines {
-  points: Vector[];
-  color: Vector;
-  width: number;
-  opacity?: number;
-}
-
-export interface Renderer {
-  /** Whether near shapes hide those behind them in any order; otherwise a shape covers those before it. */
-  readonly hidesFarther: boolean;
-  solids(bodies: Body[], opacity?: number): void;
-  lines(lines: Lines): void;
-  dots(points: Vector[], colors: Vector[], width: number): void;
-  /** Subsequent shapes cover all others while this is on. */
-  over(on: boolean): void;
-  finish(): void;
-}
-
 let painter: Painter | null = null;
 let withoutCard = false;
 
-/** The renderer of a picture of a scene. A WebGL renderer is created again after its context is lost. */
-export function chooseRenderer({ objects, points, boxes }: Scene, picture: Picture): Renderer {
-  if (!withoutCard && objects.length + points.length + boxes.length) {
+/** The renderer of a picture of a scene. A WebGL context is created again after it is lost. */
+export function chooseRenderer({ objects }: Scene, picture: Picture): HullRenderer {
+  if (!withoutCard && objects.length) {
     try {
-      if (!painter || painter.lost) painter = new Painter();
+      if (!painter || painter.gl.isContextLost()) painter = new Painter();
       withoutCard = painter.software;
     } catch {
       withoutCard = true;
     }
-    if (!withoutCard && painter) return painter.begin(picture);
+    if (!withoutCard && painter) return new SolidRenderer(picture, painter);
   }
   return new HullRenderer(picture);
 }

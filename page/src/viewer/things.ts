@@ -1,18 +1,19 @@
 /** Surroundings of an arm, as lines. */
 
-import { across, column, cross, place, size, sum, unit } from "./algebra";
+import { across, column, cross, level, place, size, sum, unit } from "./algebra";
 import type { Lost, Pose, Scene, Vector } from "./scene";
 
-/** Segments of a line through points. */
-export function joined(points: Vector[]): Vector[] {
-  return points.slice(1).flatMap((p, k) => [points[k], p]);
+/** Segments of a line through points, which a closed one connects to the first. */
+export function joined(points: Vector[], closed = false): Vector[] {
+  return points.flatMap((p, k) => (k || closed ? [points.at(k - 1) as Vector, p] : []));
 }
 
-export function circle(center: Vector, axis: Vector, radius: number): Vector[] {
+/** Corners of a regular polygon around a unit axis. */
+export function circle(center: Vector, axis: Vector, radius: number, corners = 40): Vector[] {
   const first = across(axis);
   const second = cross(axis, first);
-  return Array.from({ length: 41 }, (_, k) => {
-    const t = (2 * Math.PI * k) / 40;
+  return Array.from({ length: corners }, (_, k) => {
+    const t = (2 * Math.PI * k) / corners;
     return sum(sum(center, first, radius * Math.cos(t)), second, radius * Math.sin(t));
   });
 }
@@ -28,8 +29,7 @@ export function cell(length: number): number {
 export function floor(scene: Scene): Vector[] {
   const step = cell(2 * scene.size);
   const count = Math.min(Math.ceil((1.1 * scene.size) / step), 12);
-  const first = Math.abs(scene.up[0]) < 0.9 ? unit(sum([1, 0, 0], scene.up, -scene.up[0])) : across(scene.up);
-  const second = cross(scene.up, first);
+  const [first, second] = level(scene.up);
   const center = sum(place(scene.base), scene.up, -0.004 * scene.size);
   const out: Vector[] = [];
   for (let k = -count; k <= count; k++) {
@@ -73,7 +73,7 @@ export function mark({ twist }: Lost, center: Vector, reach: number): { lines: V
   }
   if (size(angular) > 0.05) {
     const ring = circle(center, unit(angular), 0.5 * reach * size(angular));
-    lines.push(...joined(ring), sum(center, angular, -0.3 * reach), sum(center, angular, 0.3 * reach));
+    lines.push(...joined(ring, true), sum(center, angular, -0.3 * reach), sum(center, angular, 0.3 * reach));
     if (end === center) end = ring[5];
   }
   return { lines, end };

@@ -143,6 +143,24 @@ def test_an_arm_with_more_redundancy_has_directions_of_self_motion(opened):
     np.testing.assert_allclose(np.linalg.norm(np.array(ways) @ null_space.T, axis=1), 1, atol=1e-2)
 
 
+def test_the_self_motion_keeps_a_lock_where_motion_is_left(opened):
+    arm, page = arms.load("pa10-9dof"), opened("pa10-9dof")
+    page.locator('[data-step="prepare"]').click()
+    page.locator(".bars button").nth(2).click()
+    assert page.evaluate(f"{PAGE}.state.step") == "prepare"
+    assert page.get_by_role("combobox", name="Direction").locator("option").count() == 1 + 2
+    first = configuration(page)
+    page.get_by_role("button", name="Go to the best").click()
+    best = configuration(page)
+    assert np.abs(best - first).max() > 1e-3
+    assert best[2] == pytest.approx(first[2], abs=1e-12)
+    np.testing.assert_allclose(arm.forward_kinematics(best), arm.forward_kinematics(first), atol=1e-5)
+    panda = opened("panda")
+    panda.locator(".bars button").nth(3).click()
+    panda.locator('[data-step="prepare"]').click()  # no motion is left, so the lock goes
+    assert panda.evaluate(f"{PAGE}.state.conditions") == ["healthy"] * 7
+
+
 def test_names_of_joints_are_shown_on_request(opened):
     page = opened("panda")
     button = page.get_by_role("button", name="Names")

@@ -122,12 +122,12 @@ def test_two_laws_move_to_a_target_that_is_dragged(studio, visit):
     target = pose_from_quaternion(*np.split(np.array(page.evaluate(f"{PAGE}.studio.target")), [3]))
     ends = ghosts(page)
     np.testing.assert_allclose(ends[:, 1], configuration(page)[1])
-    for q, text in zip(ends, page.locator(".studio-list li").all_inner_texts(), strict=True):
+    for q, text in zip(ends, page.locator(".law-key").all_inner_texts(), strict=True):
         law = hf.laws.by_name(text.partition(":")[0], arm, task="planar")
         run = hf.simulate(law, configuration(page), target[:2, 3], locked=[1])
         np.testing.assert_allclose(q, run.path(samples=240, until=min(float(run.time), 15 / law.gain)).q[-1], atol=1e-6)
         assert run.ending_sentence() in text
-    assert page.locator(".overlay-trail").count() == 2
+    assert page.locator(".view3d-overlay .overlay-trail").count() == 2
     slider = page.get_by_label("Time of the motion")
     slider.focus()
     page.keyboard.press("Home")
@@ -255,7 +255,7 @@ def test_an_arm_and_a_motion_are_opened(studio, visit, tmp_path):
     page.get_by_label("Open a file").set_input_files({"name": "m.csv", "mimeType": "text/csv", "buffer": motion})
     finish(page)
     np.testing.assert_allclose(ghosts(page), [[1, 0.5, 0.25]])
-    assert "m.csv: 2 rows" in page.locator(".studio-list").inner_text()
+    assert "m.csv: 2 rows" in page.locator(".law-key").inner_text()
     for name, content, sentence in (
         ("<img src=x>.txt", b"1", "cannot be opened here"),
         ("bad.csv", b"time_s\n1", "bad.csv"),

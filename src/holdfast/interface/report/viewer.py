@@ -1,6 +1,6 @@
 """Interactive 3-D view of an arm, embedded in a page without a server, network, or other file.
 
-The script ``templates/viewer.js`` (25 kB) is built from ``page/src/viewer`` by ``make page``. A page contains it once, for any
+The script ``templates/viewer.js`` (23 kB) is built from ``page/src/viewer`` by ``make page``. A page contains it once, for any
 number of views. A still drawing is shown until the script has drawn the same picture, without JavaScript, and in print.
 """
 

@@ -44,7 +44,7 @@ extras.poses = function (box, data) {
       ring.setAttribute("cx", places[n][k][0]);
       ring.setAttribute("cy", places[n][k][1]);
     });
-    if (turned && turned.view3d) { turned.view3d.pose(q); turned.view3d.label(told); }
+    if (turned && turned.view3d) { turned.view3d.pose(q); }
   }
   function nearest(event) {
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(figure.getScreenCTM().inverse());
