@@ -16,6 +16,7 @@ from holdfast.model.arm import dynamics, kinematics, statics
 from holdfast.model.arm.model import Arm
 
 TIME_ROUNDING_S = 1e-12  # s: two times that differ by less are equal
+FIXED_INERTIA = 1e100  # kg m^2 or kg; nothing accelerates it by as much as the rounding of a number
 
 
 class PassiveArm:
@@ -77,10 +78,9 @@ def solve_selected(matrix: SX, right_side: SX, selected: SX, fixed: SX) -> SX:
         selected: (n,) 1 for an unknown, 0 for a fixed entry of x.
         fixed: (n,) values of the fixed entries.
     """
-    n = matrix.shape[0]
     remaining = right_side - matrix @ ((1 - selected) * fixed)
-    rows = [[selected[i] * selected[k] * matrix[i, k] + (1 - selected[i] if i == k else 0) for k in range(n)] for i in range(n)]
-    solution = ca.vertcat(*solve_spd(rows, ca.vertsplit(ca.densify(selected * remaining))))
+    heavy = matrix + ca.diag(FIXED_INERTIA * (1 - selected))
+    solution = ca.vertcat(*solve_spd([ca.horzsplit(row) for row in ca.vertsplit(heavy)], ca.vertsplit(ca.densify(remaining))))
     return ca.if_else(selected, solution, fixed)
 
 

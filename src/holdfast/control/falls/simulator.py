@@ -109,11 +109,12 @@ class FallSimulator:
         """Return the states of falls from ``starts`` (N, n) from the states of the loop."""
         parts = self.stepper.layout.view_parts(states)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
+        tool, down = self.tool_points(end), self.stepper.down
         return FallStates(
             q=end,
             rates=parts["rates"].copy(),
-            tool=self.tool_points(end),
-            drop=parts["deepest"][:, 0] - self.tool_points(starts) @ self.stepper.down,
+            tool=tool,
+            drop=np.maximum(parts["deepest"][:, 0], tool @ down) - self.tool_points(starts) @ down,
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
