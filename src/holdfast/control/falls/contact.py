@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
+from holdfast.control.falls.passive_arm import largest
 from holdfast.control.falls.simulator import FallSimulator, FallStates
+from holdfast.control.simulation.system import elementwise_max
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
+from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
@@ -75,11 +81,12 @@ class _Instant:
 class ContactSearch:
     """Falls of one arm up to their first contacts.
 
-    Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
-    at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
-    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the span is halved,
-    until L is below half a millimetre. The distances at an instant are only computed where ``d_1 - L`` is below 0, with the
-    last computed d_1 and the L of all spans since. Only a contact less than a quarter of a millimetre deep may be missed.
+    Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates at
+    both ends. The points of a link differ from straight motions, whose longest is D, by at most a margin e
+    (:func:`_displacement_kernel`). So a pair with the distances d_1 and d_2 at two instants comes no closer between them than
+    ``(d_1 + d_2 - D) / 2 - e``. If this is below 0, the span is halved, until the distance changes by less than half a
+    millimetre. The distances at an instant are only computed where ``d_1 - D < e``, with the last computed d_1 and the D of all
+    spans since. Only a contact less than a quarter of a millimetre deep may be missed.
 
     Args:
         simulator: Simulator of the falls.
@@ -95,10 +102,11 @@ class ContactSearch:
         is_stopped = simulator.has_stops & np.isfinite(arm.lower) & np.isfinite(arm.upper)
         travel = np.where(is_stopped, 0.0, np.linalg.norm(arm.gravity) * duration**2)
         reached = np.concatenate([limits, starts])
-        self.change_bounds = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel)
-        own, objects = np.split(self.change_bounds, [len(clearance.pairs)])
-        by_link = objects if clearance.obstacles is None else objects[:: len(clearance.obstacles.cell)]
-        self.nearest_change_bounds = np.ascontiguousarray(np.concatenate([own, by_link]).T)
+        self.levers = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel).max(axis=0)
+        self.displacement_kernel = _compiled_displacement_kernel(clearance.self_only)
+        own_count, objects = len(clearance.pairs), 0 if clearance.obstacles is None else len(clearance.obstacles.cell)
+        others = np.arange(own_count, len(clearance.pair_names))
+        self.nearest_of_pair = np.concatenate([np.arange(own_count), own_count + (others - own_count) // max(objects, 1)])
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
@@ -120,13 +128,14 @@ class ContactSearch:
             before = states[rows]
             result = stepper.loop.run(before, parameters[rows], 0.5, calls)
             after, has_ignored = self._view_instants(result.state), np.any(ignored, axis=1)
-            travel = _bound_travel(self._view_instants(before), after)
-            distances -= np.einsum("rj,jk->rk", travel, self.nearest_change_bounds)  # small, so threads of @ would only wait
+            displacements, margins = self._bound_displacements(self._view_instants(before), after)
+            distances -= displacements
             # The distances are computed only where these lower bounds do not exclude a contact.
-            doubtful = np.flatnonzero(np.any(distances < 0, axis=1) | has_ignored)
+            doubtful = np.flatnonzero(np.any(distances < margins, axis=1) | has_ignored)
             measured, is_running = self._measure_nearest(after.q[doubtful]), ~result.done
             is_touching = np.any(measured < 0, axis=1)
-            possible = doubtful[is_touching | has_ignored[doubtful] | (distances[doubtful] + measured < 0).any(axis=1)]
+            is_near = (distances[doubtful] + measured < 2 * margins[doubtful]).any(axis=1)
+            possible = doubtful[is_touching | has_ignored[doubtful] | is_near]
             if possible.size:
                 span_count += possible.size
                 spans.append((rows[possible], before[possible], result.state[possible], ignored[possible]))
@@ -162,6 +171,11 @@ class ContactSearch:
         parts = self.simulator.stepper.layout.view_parts(states)
         return _Instant(time=parts["time"][:, 0], q=parts["q"], rates=parts["rates"])
 
+    def _bound_displacements(self, start: _Instant, end: _Instant) -> tuple[FloatArray, FloatArray]:
+        """Return the displacements (R, K) for :meth:`_measure_nearest` and the margins (R, 1) between two instants, m."""
+        bounds = self.displacement_kernel.rows(start.q, start.rates, end.q, end.rates, end.time - start.time, self.levers)
+        return bounds[:, :-1], bounds[:, -1:]
+
     def _measure_nearest(self, q: FloatArray) -> FloatArray:
         """Return the distances (R, K) of all pairs of links, and of each link from its nearest object."""
         distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
@@ -174,12 +188,11 @@ class ContactSearch:
         """
         start, end = self._view_instants(starts), self._view_instants(ends)
         duration, first, last = end.time - start.time, self.clearance.by_pair(start.q), self.clearance.by_pair(end.q)
-        falls, pairs = _find_possible_contacts(_bound_travel(start, end), first, last, self.change_bounds, ignored)
+        displacements, margins = self._bound_displacements(start, end)
+        is_near = first + last < displacements[:, self.nearest_of_pair] + 2 * margins
+        falls, pairs = np.nonzero((is_near | (last < 0)) & ~ignored)
         polynomials = _interpolate(start, end)  # of the fraction of the duration
-        derivatives = polynomials[:, 1:] * np.array([[1.0], [2.0], [3.0]])
-        # A quadratic polynomial on (0, 1) is between the least and the largest of its Bernstein coefficients.
-        bernstein = np.stack([derivatives[:, 0], derivatives[:, 0] + derivatives[:, 1] / 2, derivatives.sum(axis=1)])
-        rates = np.einsum("rj,rj->r", np.abs(bernstein).max(axis=0)[falls], self.change_bounds[pairs])
+        rates = displacements[falls, self.nearest_of_pair[pairs]] + 4 * margins[falls, 0]
         spans = np.array([np.zeros(falls.size), np.ones(falls.size), first[falls, pairs], last[falls, pairs], rates])
         fraction, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
         latest = fraction.copy()  # fractions at which a contact has begun
@@ -217,24 +230,42 @@ class ContactSearch:
         return distances
 
 
-def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
-    """Bound the travel (R, n) of each joint on the cubic polynomials between two instants, rad and m."""
-    half = (after.time - before.time)[:, None] / 2
-    travel = half * (np.abs(before.rates) + np.abs(after.rates))
-    return np.asarray(travel + np.abs(after.q - before.q - half * (before.rates + after.rates)))
+@lru_cache(maxsize=16)
+def _compiled_displacement_kernel(clearance: Clearance) -> Kernel:
+    return _displacement_kernel(clearance)
 
 
-def _find_possible_contacts(
-    travel: FloatArray, before: FloatArray, after: FloatArray, change_bounds: FloatArray, ignored: BoolArray
-) -> tuple[IndexArray, IndexArray]:
-    """Return the falls and the pairs of which the distance, ``before`` and ``after`` (R, P), may reach 0 in between."""
-    # Most pairs are excluded by the largest bound of all pairs.
-    largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
-    falls, pairs = np.nonzero(((before + after < largest_change[:, None]) | (after < 0)) & ~ignored)
-    change = np.einsum("rj,rj->r", travel[falls], change_bounds[pairs])
-    last = after[falls, pairs]
-    is_possible = (before[falls, pairs] + last < change) | (last < 0)
-    return falls[is_possible], pairs[is_possible]
+@cached_kernel
+def _displacement_kernel(clearance: Clearance) -> Kernel:
+    """Return the kernel ``(q, rates) at two instants, their distance in time, levers -> displacements (K,), margin``, m.
+
+    A displacement is the largest of the points of a link: for each pair of links as seen from the first one, then for each link
+    with capsules as seen from the base. In between, a point differs from its straight motion by at most the margin, which is an
+    eighth of a bound on its second derivative. The levers (n,) bound the distances of all points from the joint axes, m.
+    """
+    arm, parts, n = clearance.arm, clearance.capsules.parts, clearance.arm.n
+    q, rates, later_q, later_rates, levers = (ca.SX.sym(name, n) for name in ("q", "v", "q1", "v1", "l"))
+    duration = ca.SX.sym("t")
+    ends = [kinematics.joint_transforms(arm, x) for x in (q, later_q)]
+
+    def find_largest(numbers: list[int], seen_from: int) -> SX:
+        poses = [kinematics.body_and_joint_frames(arm, steps, seen_from + 1)[0] for steps in ends]
+        squares = []
+        for part, end in ((parts[number], end) for number in numbers for end in ("start", "end")):
+            point = kinematics.constant_matrix(np.array(getattr(part, end)))
+            before, after = (rotation @ point + position for rotation, position in (pose[part.link + 1] for pose in poses))
+            squares.append(ca.sumsqr(after - before))
+        return ca.sqrt(largest(ca.vertcat(*squares)))
+
+    links = sorted({part.link for part in parts} - {BASE_LINK})
+    own = [find_largest([second], parts[first].link) for first, second in clearance.pairs]
+    moved = [find_largest([k for k, part in enumerate(parts) if part.link == link], BASE_LINK) for link in links]
+    # Rates and accelerations on the cubic polynomials are between their Bernstein coefficients; the unit of time is the duration.
+    chord, first, last = later_q - q, duration * rates, duration * later_rates
+    speed = elementwise_max(elementwise_max(ca.fabs(first), ca.fabs(last)), ca.fabs(3 * chord - first - last))
+    bend = elementwise_max(ca.fabs(6 * chord - 4 * first - 2 * last), ca.fabs(6 * chord - 2 * first - 4 * last))
+    margin = ca.dot(levers, bend + speed * (2 * ca.cumsum(speed) - speed)) / 8
+    return Kernel("displacements", [q, rates, later_q, later_rates, duration, levers], [ca.vertcat(*own, *moved, margin)])
 
 
 def _interpolate(start: _Instant, end: _Instant) -> FloatArray:
