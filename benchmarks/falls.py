@@ -33,7 +33,7 @@ Fall = Callable[[Array], Array]  # configurations (N, 7) -> tool points (N, time
 def holdfast(friction: FrictionNumbers, stops: bool, step: float, threads: int = THREADS) -> tuple[Fall, Fall]:
     """Tool points at the times, for the error; and the simulation alone to the end, for the time."""
     import holdfast as hf
-    from holdfast.control.falls import simulator as falls
+    from holdfast.control.falls.simulator import FallSimulator
 
     hf.set_threads(threads)
     arm = panda.ours()
@@ -43,8 +43,8 @@ def holdfast(friction: FrictionNumbers, stops: bool, step: float, threads: int =
         return hf.power_loss(arm, q, friction=model, stops=stops, duration=TIMES[-1], step=step).tool_at(TIMES)
 
     zero = np.zeros(panda.N)
-    conditions = {**vars(model.of_joints(arm)), "brake_torque": zero, "brake_damping": zero, "brake_time": falls.never()}
-    simulator = falls.FallSimulator(arm, stops, {**conditions, "restitution": 0.0, "free": np.ones(panda.N)})
+    conditions = {**vars(model.of_joints(arm)), "brake_torque": zero, "brake_damping": zero, "brake_time": 1e300}
+    simulator = FallSimulator(arm, stops, {**conditions, "restitution": 0.0, "free": np.ones(panda.N)})
 
     def run(q: Array) -> Array:
         return simulator.run(q, np.zeros_like(q), np.full(len(q), TIMES[-1]), np.full(len(q), step)).tool

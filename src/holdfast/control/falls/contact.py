@@ -107,7 +107,7 @@ class ContactSearch:
         self.levers = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel).max(
             axis=0, initial=0.0
         )
-        self.bound_kernel = _compiled_bound_kernel(clearance.self_only, clearance.obstacles is not None)
+        self.bound_kernel = _bound_kernel(clearance.self_only, clearance.obstacles is not None)
         own_count, objects = len(clearance.pairs), 0 if clearance.obstacles is None else len(clearance.obstacles.cell)
         others = np.arange(own_count, len(clearance.pair_names))
         self.nearest_of_pair = np.concatenate([np.arange(own_count), own_count + (others - own_count) // max(objects, 1)])
@@ -242,10 +242,6 @@ class ContactSearch:
 
 
 @lru_cache(maxsize=16)
-def _compiled_bound_kernel(clearance: Clearance, has_objects: bool) -> Kernel:
-    return _bound_kernel(clearance, has_objects)
-
-
 @cached_kernel
 def _bound_kernel(clearance: Clearance, has_objects: bool) -> Kernel:
     """Return the kernel of two states, their distance in time, s, levers (n,), and distances (K,), m.

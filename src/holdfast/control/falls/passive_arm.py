@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
-from holdfast.control.simulation.system import ParameterLayout, elementwise_min
+from holdfast.control.simulation.system import ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
+from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import solve_spd
+from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.model.arm import dynamics, kinematics, statics
 from holdfast.model.arm.model import Arm
@@ -29,6 +32,7 @@ class PassiveArm:
     """
 
     steps_per_call = 1
+    layout: ColumnLayout
 
     def __init__(self, arm: Arm) -> None:
         self.arm = arm
@@ -39,6 +43,16 @@ class PassiveArm:
         self.parameters = ParameterLayout(**self.symbols)
         norm = float(np.linalg.norm(arm.gravity))
         self.down = arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
+
+    @cached_property
+    @cached_kernel
+    def loop(self) -> Loop:
+        """Loop that repeats the steps."""
+        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, self.steps_per_call)
+
+    def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
+        """Return the parts of a state after one call."""
+        raise NotImplementedError
 
     def is_braked(self, time: SX) -> SX:
         """Return 1 if the brakes act at a time, else 0."""
@@ -84,6 +98,7 @@ def solve_selected(matrix: SX, right_side: SX, selected: SX, fixed: SX) -> SX:
     return ca.if_else(selected, solution, fixed)
 
 
+@lru_cache(maxsize=16)
 @cached_kernel
 def energy_kernel(arm: Arm) -> Kernel:
     """Return the kernel ``q -> potential energy, inertia matrix (n, n)``, J and kg m^2."""

@@ -14,11 +14,7 @@ from holdfast.control.simulation.system import (
     STATE_RUNNING,
     ColumnLayout,
     elementwise_max,
-    make_state_loop,
 )
-from holdfast.core.caching import cached_property
-from holdfast.kernels.disk_cache import cached_kernel
-from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.model.arm.model import Arm
 
@@ -34,13 +30,7 @@ class SmoothStepper(PassiveArm):
         super().__init__(arm)
         self.layout = ColumnLayout(q=arm.n, rates=arm.n, time=1, deepest=1, residual=1, code=1)
 
-    @cached_property
-    @cached_kernel
-    def loop(self) -> Loop:
-        """Loop that repeats the steps."""
-        return make_state_loop("smooth falls", self._build_step, self.layout, self.parameters.symbols, self.steps_per_call)
-
-    def _build_step(self, parts: dict[str, SX]) -> dict[str, SX]:
+    def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
         time = parts["time"]
         q, rates, damping = parts["q"], parts["rates"], self.damping(time)
         h = ca.if_else(parts["code"] == STATE_RUNNING, self.next_step(time), 0.0)

@@ -28,11 +28,7 @@ from holdfast.control.simulation.system import (
     ColumnLayout,
     choose_parts,
     elementwise_max,
-    make_state_loop,
 )
-from holdfast.core.caching import cached_property
-from holdfast.kernels.disk_cache import cached_kernel
-from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.model.arm import dynamics, statics
 from holdfast.model.arm.model import Arm
@@ -95,12 +91,6 @@ class DryFrictionStepper(PassiveArm):
         self.upper = np.where(np.isfinite(arm.upper) & has_stops, arm.upper, LARGE_NUMBER)
         scalars = dict.fromkeys(("step", "tries", "time", "deepest", "residual", "code"), 1)
         self.layout = ColumnLayout(q=n, rates=n, acceleration=n, mode=n, **scalars)
-
-    @cached_property
-    @cached_kernel
-    def loop(self) -> Loop:
-        """Loop that repeats the calls of a step."""
-        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, self.steps_per_call)
 
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
         """Return the parts after one call: a corrected set, a shorter step, or the state after the step."""
