@@ -247,12 +247,14 @@ def contact_table(chosen: argparse.Namespace) -> str:
     lines = [
         f"### W19: {len(q):,} falls of a moving Panda to the first contact with itself or one of 10 objects",
         "",
-        f"| contender | time of all, s (range) | falls/s | MuJoCo IMPLICITFAST {step * 1e3:g} ms, falls/s "
+        f"| contender | processor time of all, s (range) | falls/s of a core | MuJoCo IMPLICITFAST {step * 1e3:g} ms, falls/s "
         "| holdfast is faster by (range) |",
         "| --- | ---: | ---: | ---: | ---: |",
     ]
     for size in (step, 4 * step):
-        ours, theirs = harness.alternate(lambda size=size: run(size), lambda: peer(q[few], rates[few]), chosen.rounds)
+        ours, theirs = harness.alternate(
+            lambda size=size: run(size), lambda: peer(q[few], rates[few]), chosen.rounds, time.process_time
+        )
         ratios = [(b / len(q[few])) / (a / len(q)) for a, b in zip(ours, theirs, strict=True)]
         speeds = (harness.number(len(x) / float(np.median(y))) for x, y in ((q, ours), (q[few], theirs)))
         name = f"**holdfast {size * 1e3:g} ms, {THREADS} threads**"
