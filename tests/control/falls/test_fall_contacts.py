@@ -188,7 +188,8 @@ def test_no_point_leaves_its_chord_by_more_than_the_margin(seed):
     path = CubicHermiteSpline(times, turns, rates)(times[1] * fractions)
     levers = clearance.lipschitz_bounds(np.full(5, -2.0), np.full(5, 2.0)).max(axis=0)
     states = (turns[:1], rates[:1], turns[1:], rates[1:], [times[1]])
-    outputs = contact._bound_kernel(clearance, True).rows(*states, levers, np.zeros((1, len(clearance.pairs) + 5)))[0]
+    kernel = contact._bound_kernel(arm, clearance.capsules, tuple(clearance.pairs), True)
+    outputs = kernel.rows(*states, levers, np.zeros((1, len(clearance.pairs) + 5)))[0]
     displacements, margin = -outputs[:-2], outputs[-2]
     frames = oracles.frames(arm, path)
     views = [(-1, link) for link in range(5)]

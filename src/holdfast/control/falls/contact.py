@@ -19,7 +19,8 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
-from holdfast.model.collision.capsules import BASE_LINK
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.capsules import BASE_LINK, Capsules
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.contacts import MIN_DISTANCE_CHANGE_M, Contact
 from holdfast.model.collision.segments import LineSegment, closest_parameters
@@ -107,7 +108,7 @@ class ContactSearch:
         self.levers = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel).max(
             axis=0, initial=0.0
         )
-        self.bound_kernel = _bound_kernel(clearance.self_only, clearance.obstacles is not None)
+        self.bound_kernel = _bound_kernel(arm, clearance.capsules, tuple(clearance.pairs), clearance.obstacles is not None)
         own_count, objects = len(clearance.pairs), 0 if clearance.obstacles is None else len(clearance.obstacles.cell)
         others = np.arange(own_count, len(clearance.pair_names))
         self.nearest_of_pair = np.concatenate([np.arange(own_count), own_count + (others - own_count) // max(objects, 1)])
@@ -243,7 +244,7 @@ class ContactSearch:
 
 @lru_cache(maxsize=16)
 @cached_kernel
-def _bound_kernel(clearance: Clearance, has_objects: bool) -> Kernel:
+def _bound_kernel(arm: Arm, capsules: Capsules, pairs: tuple[tuple[int, int], ...], has_objects: bool) -> Kernel:
     """Return the kernel of two states, their distance in time, s, levers (n,), and distances (K,), m.
 
     Its results are the distances minus displacements (K,), a margin, and the least excess of these over the margin, m. A
@@ -251,7 +252,7 @@ def _bound_kernel(clearance: Clearance, has_objects: bool) -> Kernel:
     with capsules as seen from the base. In between, a point differs from its straight motion by at most the margin, which is an
     eighth of a bound on its second derivative. The levers bound the distances of all points from the joint axes, m.
     """
-    arm, parts, n = clearance.arm, clearance.capsules.parts, clearance.arm.n
+    parts, n = capsules.parts, arm.n
     q, rates, later_q, later_rates, levers = (ca.SX.sym(name, n) for name in ("q", "v", "q1", "v1", "l"))
     duration = ca.SX.sym("t")
     ends = [kinematics.joint_transforms(arm, x) for x in (q, later_q)]
@@ -266,7 +267,7 @@ def _bound_kernel(clearance: Clearance, has_objects: bool) -> Kernel:
         return ca.sqrt(largest(ca.vertcat(*squares)))
 
     links = sorted({part.link for part in parts} - {BASE_LINK}) if has_objects else []
-    own = [find_largest([second], parts[first].link) for first, second in clearance.pairs]
+    own = [find_largest([second], parts[first].link) for first, second in pairs]
     moved = [find_largest([k for k, part in enumerate(parts) if part.link == link], BASE_LINK) for link in links]
     # On the cubic polynomials, rates and accelerations are between Bernstein coefficients. The unit of time is the duration.
     chord, first, last = later_q - q, duration * rates, duration * later_rates
