@@ -34,6 +34,7 @@ PACKAGES = (
     "pin",
     "roboticstoolbox-python",
     "pytracik",
+    "ssik",
     "pin-pink",
     "mink",
     "mujoco",

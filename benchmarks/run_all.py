@@ -27,6 +27,7 @@ WORKLOADS = (
     "reachability_map",
     "lock_survival",
     "recovery_planners",
+    "route_search",
     "certificate_search",
     "fault_monitor",
     "upper_bounds",

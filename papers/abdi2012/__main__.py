@@ -203,9 +203,7 @@ def figure_1_2(run: hf.Assessment, path_1: Path, path_2: Path) -> None:
     chain = arm.frames(hf.arms.about("pa10-9dof").home)[:, :3, 3]
     center, size = np.array(run.region.center[:3]), np.array(run.region.size[:3])
     box = np.array([center - size / 2, center + size / 2])
-    scene = Scene(
-        position[reached], value[reached], position[~reached], chain=chain, nodes=chain[1:-1], square=arm.prismatic, box=box
-    )
+    scene = Scene(position[reached], value[reached], position[~reached], chain=chain, square=arm.prismatic, box=box)
     legend = [("base", "base"), ("joint", "joints"), ("tool", "tool"), ("dot", f"{reached.sum()} poses reached")]
     legend += [("cross", f"{(~reached).sum()} not reached"), ("box", "positions of the region")]
     label = "worst-case relative manipulability (no unit)"

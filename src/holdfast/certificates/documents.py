@@ -15,11 +15,12 @@ from holdfast import __version__
 from holdfast.certificates import verifier
 from holdfast.certificates.claims import LockedTargetClaim, TargetClaim
 from holdfast.certificates.kinds import Claim, find_claim_kind
-from holdfast.certificates.taylor import CertificateChain, rotation_to_axis
+from holdfast.certificates.taylor import CertificateChain
 from holdfast.certificates.tree import PROVED_TOKEN
 from holdfast.certificates.verifier_parts.tree import Cell
 from holdfast.core.errors import InputError
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_to_axis
 from holdfast.model.arm.statics import links_with_payload
 
 Document = dict[str, Any]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_to_axis
 
 CENTER_UNIT = 2.0**-24  # rad: unit of stored centers
 _MAX_TEST_STEPS = 40  # steps of tests, each with several rounds
@@ -63,12 +64,6 @@ class CertificateChain:
             return None
         height = -(origin[:2] @ direction[:2]) / squared_sine
         return float(origin[2] + height * direction[2]), float(height)
-
-
-def rotation_to_axis(axis: FloatArray) -> FloatArray:
-    """Return the rotation (3, 3) from the frame of a joint in certificates, whose z axis is the joint's, to its own frame."""
-    perpendicular = np.linalg.svd(axis[None])[2][1]
-    return np.column_stack([perpendicular, np.cross(axis, perpendicular), axis])
 
 
 def link_lengths(rotations: FloatArray, links: Sequence[FloatArray], slides: BoolArray) -> FloatArray:

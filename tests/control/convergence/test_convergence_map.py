@@ -243,7 +243,7 @@ def test_the_best_law_in_a_cell_is_told_with_what_it_touches():
         plain.share("plain", outcome="touched")
     assert not any("touch" in line for line in plain.describe())
     told = present(choice)
-    assert [column.key for column in told.tables[0].columns][-1] == "touched"
+    assert told.tables[0].headers[-1].label == "touches something, at most"
     assert [row[-1] for row in told.tables[0].rows] == [choice.share(name, outcome="touched").value for name in choice.ranking]
     assert told.answer.endswith("of the motions touch something on the way.")
     assert cell.digest[:12] in dict(told.method)["Contacts"]

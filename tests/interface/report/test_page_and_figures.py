@@ -67,14 +67,13 @@ def some_figures() -> list[Figure]:
         values,
         points[:5] + 1,
         chain=chain,
-        nodes=chain[1:],
-        square=np.array([True, False, False]),
+        square=np.array([True, False]),
         box=np.array([[0, 0, 0], [1, 1, 1.0]]),
     )
     return [
-        cdf_figure(curves, marks, "value", ylabel="share", title="title"),
+        cdf_figure(curves, marks, "value", ylabel="share"),
         distribution_figure(
-            Bin(x[::7], np.ones(7), "", ylabel="density"),
+            Bin(x[::7], np.ones(7), "density"),
             curves,
             marks,
             xlabel="value",

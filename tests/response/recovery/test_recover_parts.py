@@ -147,8 +147,8 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
 @pytest.mark.parametrize(("tries", "vain", "made"), [(0, 1, 0), (1, 1, 1), (4, 1, 1), (9, 2, 2), (3, None, 3)])
 def test_searches_that_find_no_route_are_not_made_again_and_again(monkeypatch, tries, vain, made):
     """A sphere behind which the only free joint, whose limits close the other way round, cannot get."""
-    rounds, connect = [], routes._search_bidirectional_trees
-    monkeypatch.setattr(routes, "_search_bidirectional_trees", lambda *given: rounds.append(connect(*given)) or rounds[-1])
+    rounds, connect = [], routes._search_compiled
+    monkeypatch.setattr(routes, "_search_compiled", lambda *given: rounds.append(connect(*given)) or rounds[-1])
     arm = hf.arms.load("planar-3r")
     cell = hf.Cell([hf.cell.Sphere("ball", 0.2, pose=[0.8, 0, 0])])
     ends = np.array([[0.9, 0.3, 0.4], [-0.9, 0.3, 0.4]])

@@ -206,13 +206,18 @@ def build_region_file_blocks(region: Region) -> list[Block]:
     return blocks
 
 
+def build_command_block(command: str, remark: str) -> Code:
+    """Return a command to copy, below a remark on it."""
+    return Code(command, remark and f"{capitalise_first(remark)}:")
+
+
 def build_rerun_blocks(assessment: Assessment) -> list[Block]:
     """Build the command that repeats the run with the files that it needs, or the reason why there is none."""
     command, remark = build_command_line(assessment)
     if command is None:
         return [Text(remark)]
     return [
-        Code(command, remark and f"{capitalise_first(remark)}:"),
+        build_command_block(command, remark),
         *build_region_file_blocks(assessment.region),
         *build_shape_file_blocks(assessment),
     ]

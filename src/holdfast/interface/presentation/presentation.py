@@ -85,18 +85,19 @@ class Fact:
 
 @dataclass(frozen=True)
 class Header:
-    """Head of a column of a table: its key in JSON, its label, and the unit of its values, or one unit for each row.
+    """Head of a column of a table: its label, and the unit of its values, or one unit for each row.
 
     Numbers with the same unit share one precision if their magnitudes allow it; ``aligned=False`` formats each separately.
+    ``key`` is the name in JSON if it differs from the label.
     """
 
-    key: str
     label: str
     unit: str | Sequence[str] = ""
     _: KW_ONLY
     style: Style = "number"
     digits: int = 4
     aligned: bool = True
+    key: str = ""
 
     def texts(self, values: Sequence[Any]) -> list[str]:
         """Format the values of the column."""
@@ -115,6 +116,14 @@ class Header:
         return [format_value(value, self.style, unit, self.digits) for value, unit in zip(values, units, strict=True)]
 
 
+Column = Header | str  # a text is the label of a column of the default style
+
+
+def make_headers(*labels: str, **style: Any) -> list[Header]:
+    """Make the heads of columns of one style."""
+    return [Header(label, **style) for label in labels]
+
+
 @dataclass(frozen=True)
 class TableSpec:
     """Table of typed values, rendered on the console, on pages, and as JSON records.
@@ -128,21 +137,27 @@ class TableSpec:
     """
 
     title: str
-    columns: Sequence[Header]
+    columns: Sequence[Column]
     rows: Sequence[Sequence[Any]]
     _: KW_ONLY
     key: str = ""
     on_console: bool = True
     on_page: bool = True
 
+    @property
+    def headers(self) -> list[Header]:
+        """Heads of the columns with their styles."""
+        return [Header(column) if isinstance(column, str) else column for column in self.columns]
+
     def texts(self) -> TextTable:
         """Return the table as texts."""
-        columns = [column.texts([row[index] for row in self.rows]) for index, column in enumerate(self.columns)]
-        return TextTable([column.label for column in self.columns], list(map(list, zip(*columns, strict=True))), self.title)
+        columns = [header.texts([row[index] for row in self.rows]) for index, header in enumerate(self.headers)]
+        return TextTable([header.label for header in self.headers], list(map(list, zip(*columns, strict=True))), self.title)
 
     def records(self) -> list[dict[str, Any]]:
         """Return the rows as dictionaries, for JSON."""
-        return [{column.key: value for column, value in zip(self.columns, row, strict=True)} for row in self.rows]
+        keys = [header.key or header.label for header in self.headers]
+        return [dict(zip(keys, row, strict=True)) for row in self.rows]
 
 
 @dataclass(frozen=True)

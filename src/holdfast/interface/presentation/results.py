@@ -17,14 +17,10 @@ from holdfast.interface.presentation.printing import make_console, print_json, p
 def print_result(
     result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any
 ) -> None:
-    """Print a result as JSON or as text, and the written files.
+    """Print a result as JSON or as text, and the names of the written files.
 
-    Args:
-        result: Result to print.
-        as_json: Print JSON instead of text.
-        files: Written files; None entries are ignored.
-        listed: Add the files to the JSON document.
-        options: Parameters of ``to_dict`` and ``show`` of the result, for example thresholds.
+    With ``listed``, the JSON document also contains the files. The options are parameters of ``to_dict`` and ``show`` of the
+    result, for example thresholds.
     """
     if as_json:
         print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))

@@ -1,10 +1,12 @@
 from matplotlib.axes import Axes as Axes
+from matplotlib.colors import to_rgb as to_rgb
 from matplotlib.figure import Figure as Figure
 from matplotlib.lines import Line2D as Line2D
 from matplotlib.patches import Patch as Patch
+from matplotlib.ticker import MaxNLocator as MaxNLocator
+from matplotlib.ticker import MultipleLocator as MultipleLocator
 
 from holdfast.core.formatting import insert_nonbreaking_spaces as insert_nonbreaking_spaces
-from holdfast.interface.report.curves import KIND_STYLES as KIND_STYLES
 from holdfast.interface.report.figures import WIDTH_IN as WIDTH_IN
 from holdfast.interface.report.figures import Bin as Bin
 from holdfast.interface.report.figures import Curve as Curve
@@ -16,6 +18,7 @@ from holdfast.interface.report.figures import distribution_figure as distributio
 from holdfast.interface.report.figures import draw_cdf as draw_cdf
 from holdfast.interface.report.figures import draw_quantile_bands as draw_quantile_bands
 from holdfast.interface.report.figures import format_label as format_label
+from holdfast.interface.report.figures import label_bars as label_bars
 from holdfast.interface.report.figures import legend_below as legend_below
 from holdfast.interface.report.figures import locate_axes as locate_axes
 from holdfast.interface.report.figures import save_png as save_png
@@ -23,7 +26,6 @@ from holdfast.interface.report.figures import settle_layout as settle_layout
 from holdfast.interface.report.figures import style as style
 from holdfast.interface.report.figures import styled_figure as styled_figure
 from holdfast.interface.report.figures import svg as svg
-from holdfast.interface.report.manifolds import JointPanel as JointPanel
 from holdfast.interface.report.maps import map_figure as map_figure
 from holdfast.interface.report.maps import share_figure as share_figure
 from holdfast.interface.report.outcomes import Gains as Gains
@@ -49,6 +51,7 @@ from holdfast.interface.report.palette import EMPTY_COLOR as EMPTY_COLOR
 from holdfast.interface.report.palette import FAINT as FAINT
 from holdfast.interface.report.palette import GREEN as GREEN
 from holdfast.interface.report.palette import INK as INK
+from holdfast.interface.report.palette import KIND_STYLES as KIND_STYLES
 from holdfast.interface.report.palette import ORANGE as ORANGE
 from holdfast.interface.report.palette import SKY as SKY
 from holdfast.interface.report.palette import SOFT as SOFT

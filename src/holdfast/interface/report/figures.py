@@ -10,7 +10,7 @@ import itertools
 import re
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass
 from html import escape
@@ -196,8 +196,6 @@ class Bin:
 
     edges: FloatArray
     heights: FloatArray
-    label: str
-    _: KW_ONLY
     ylabel: str
 
 
@@ -229,7 +227,7 @@ def draw_cdf(
 
 def draw_histogram(axes: Axes, histogram: Bin, marks: Sequence[Mark], xlabel: str, log: bool = False) -> None:
     """Draw a histogram, and vertical marks, into axes."""
-    axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY, label=histogram.label)
+    axes.stairs(histogram.heights, histogram.edges, fill=True, color=SKY)
     axes.stairs(histogram.heights, histogram.edges, color=BLUE, linewidth=0.8)
     _draw_marks(axes, marks)
     max_height = float(histogram.heights.max(initial=0.0))
@@ -256,21 +254,11 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )
 
 
-def cdf_figure(
-    curves: Sequence[Curve],
-    marks: Sequence[Mark],
-    xlabel: str,
-    *,
-    ylabel: str,
-    title: str = "",
-    log: bool = False,
-    width: float = 5.4,
-) -> Figure:
+def cdf_figure(curves: Sequence[Curve], marks: Sequence[Mark], xlabel: str, *, ylabel: str) -> Figure:
     """Plot cumulative distributions in one panel."""
-    with styled_figure(width, 3.9) as figure:
+    with styled_figure(0.8 * WIDTH_IN, 3.9) as figure:
         axes = figure.add_subplot()
-        draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
-        axes.set_title(title)
+        draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel)
         legend_below(figure, axes)
     return figure
 
@@ -335,42 +323,37 @@ def bar_figure(
     total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:
-    """Plot horizontal bars, the first one on top, each with its count and fraction.
+    """Plot horizontal bars, the first one on top, each with its count and its fraction of ``total``, by default their sum.
 
-    Args:
-        names: Name of each bar.
-        counts: Count of each bar; counts that are not integers (sums of weights) are printed with four digits.
-        xlabel: Label of the count axis.
-        total: Count that corresponds to 100 %; the sum of the counts if None.
-        stress: Draw the longest bar (``most``) or the shortest bar (``least``) darker.
+    The longest bar (``most``) or the shortest one (``least``) is darker. Counts that are not integers (sums of weights) are
+    printed with four digits.
     """
     denominator = sum(counts) if total is None else total
     max_count = max(counts, default=0) or 1
     stressed_count = max_count if stress == "most" else min(counts)
     with styled_figure(WIDTH_IN * 0.8, 0.75 + 0.27 * len(names)) as figure:
         axes = figure.add_subplot()
-        positions = np.arange(len(names))
-        axes.barh(positions, counts, height=0.64, color=[BLUE if bar_count == stressed_count else SKY for bar_count in counts])
-        for position, count in zip(positions, counts, strict=True):
-            fraction_text = f" ({format_percent(count / denominator)})" if denominator else ""
-            axes.annotate(
-                f"{count:{',' if isinstance(count, int) else ',.4g'}}{fraction_text}",
-                (count, position),
-                (4, 0),
-                textcoords="offset points",
-                va="center",
-                fontsize=9,
-                color=INK,
-            )
-        axes.set_yticks(positions, [format_label(name, 40) for name in names])
-        axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18), ylim=(len(names) - 0.45, -0.55))
+        colors = [BLUE if bar_count == stressed_count else SKY for bar_count in counts]
+        axes.barh(range(len(names)), counts, height=0.64, color=colors)
+        texts = [f"{count:{',' if isinstance(count, int) else ',.4g'}}" for count in counts]
+        fractions = [f" ({format_percent(count / denominator)})" if denominator else "" for count in counts]
+        label_bars(axes, names, counts, texts=map(str.__add__, texts, fractions))
+        axes.set(xlabel=xlabel, xlim=(0, max_count * 1.18))
         if all(isinstance(bar_count, int) for bar_count in counts):
             axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
             axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
-        axes.grid(axis="y", visible=False)
-        axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
     return figure
+
+
+def label_bars(axes: Axes, names: Sequence[str], ends: Iterable[float], *, texts: Iterable[str], max_letters: int = 40) -> None:
+    """Write the names next to horizontal bars, the first one on top, and a text at the end of each."""
+    for position, (end, text) in enumerate(zip(ends, texts, strict=True)):
+        axes.annotate(text, (end, position), (4, 0), textcoords="offset points", va="center", fontsize=9)
+    axes.set_yticks(range(len(names)), [format_label(name, max_letters) for name in names])
+    axes.set_ylim(len(names) - 0.45, -0.55)
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
 
 
 def settle_layout(figure: Figure) -> Figure:

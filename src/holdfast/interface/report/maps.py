@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -41,33 +42,15 @@ def map_figure(
         bins: Number of cells along the longer edge.
         weights: (N,) weights of the points, at least 0; equal weights if None.
     """
-    lower, upper = points.min(axis=0), points.max(axis=0)
-    grids = [
-        [_average_cells(points, values, grid_view, lower, upper, bins, smaller_is_better, weights) for grid_view in views]
-        for values in samples.values()
-    ]
-    averages = np.concatenate([grid[2].ravel() for grid_row in grids for grid in grid_row])
-    has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
+    rows, median = [], smaller_is_better
+    for name, values in samples.items():
+        titles = [f"{view.title}, {name}" if len(samples) > 1 else view.title for view in views]
+        titled_views = zip(titles, views, strict=True)
+        rows.append([_average_cells(title, points, values, view, bins, median, weights) for title, view in titled_views])
+    averages = np.concatenate([cell_map.averages.ravel() for row in rows for cell_map in row])
     scale = replace(Scale.from_values(averages[~np.isnan(averages)], log, smaller_is_better), pale=True)
-    aspect = max(float(height / view_width) for view_width, height in (view.project(upper - lower) for view in views))
-    height = float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8
-    with styled_figure(WIDTH_IN if len(views) > 1 else 6.2, height * len(samples)) as figure:
-        panels = figure.subplots(len(samples), len(views), squeeze=False)
-        for name, axes_row, grid_row in zip(samples, panels, grids, strict=True):
-            for axes, view, (x_edges, y_edges, mean, value_counts, point_counts) in zip(axes_row, views, grid_row, strict=True):
-                _draw_cells(axes, x_edges, y_edges, mean, value_counts, point_counts, scale, has_missing)
-                title = f"{view.title}, {name}" if len(samples) > 1 else view.title
-                axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
-        colorbar = figure.colorbar(
-            scale.mappable,
-            ax=list(panels.ravel()),
-            shrink=0.85,
-            aspect=26 * len(samples),
-            pad=0.015,
-            extend=scale.extend(averages),
-        )
-        label_color_bar(colorbar, label, scale)
-    return figure
+    has_missing = any(bool(np.isnan(values).any()) for values in samples.values())
+    return _draw_maps(rows, WIDTH_IN if len(views) > 1 else 6.2, scale, label, has_missing)
 
 
 def share_figure(
@@ -79,55 +62,40 @@ def share_figure(
     bins: int = 6,
     weights: FloatArray | None = None,
 ) -> Figure:
-    """Map the fraction of points with a property over a projection, one panel per property, all on one scale from 0 to 1.
+    """Map the fraction of points (N, 3), m, with a property over a projection, all panels on one scale from 0 to 1.
 
-    Args:
-        points: (N, 3) points, m.
-        panels: Title and flags (N,) of the points with the property. A cell shows the fraction and its number of points.
-        view: Projection.
-        label: Label of the colour bar.
-        bins: Number of cells along the longer edge.
-        weights: (N,) weights of the points, at least 0; equal weights if None.
+    Each panel has a title and the flags (N,) of the points with the property. A cell shows the fraction and its number of
+    points; there are ``bins`` cells along the longer edge. Points count by ``weights`` (N,), which are equal if None.
     """
-    lower, upper = points.min(axis=0), points.max(axis=0)
-    scale = Scale(0.0, 1.0, pale=True)
-    view_width, view_height = view.project(upper - lower)
-    aspect = float(view_height / view_width)
-    with styled_figure(WIDTH_IN, float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8) as figure:
-        axes = figure.subplots(1, len(panels), squeeze=False)[0]
-        for panel_axes, (title, has_property) in zip(axes, panels, strict=True):
-            x_edges, y_edges, fractions, point_counts, _ = _average_cells(
-                points, has_property.astype(np.float64), view, lower, upper, bins, False, weights
-            )
-            _draw_cells(panel_axes, x_edges, y_edges, fractions, point_counts, point_counts, scale, False)
-            panel_axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
-        label_color_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
-    return figure
+    cell_maps = [_average_cells(title, points, flags.astype(float), view, bins, False, weights) for title, flags in panels]
+    return _draw_maps([cell_maps], WIDTH_IN, Scale(0.0, 1.0, pale=True), label, False)
+
+
+@dataclass(frozen=True)
+class _CellMap:
+    """Averages over the cells of a projection (Y, X), with the numbers of points with a value and of all points."""
+
+    title: str
+    view: View
+    x_edges: FloatArray
+    y_edges: FloatArray
+    averages: FloatArray
+    value_counts: NDArray[np.int64]
+    point_counts: NDArray[np.int64]
 
 
 def _average_cells(
-    points: FloatArray,
-    values: FloatArray,
-    view: View,
-    lower: FloatArray,
-    upper: FloatArray,
-    longest_cells: int,
-    median: bool,
-    weights: FloatArray | None = None,
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    lower, size = view.project(lower), view.project(upper - lower)
-    count = np.maximum(np.round(longest_cells * size / size.max()), 1).astype(int)
+    title: str, points: FloatArray, values: FloatArray, view: View, bins: int, median: bool, weights: FloatArray | None
+) -> _CellMap:
+    lower, size = view.project(points.min(axis=0)), view.project(np.ptp(points, axis=0))
+    count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
     x_edges, y_edges = (
         np.linspace(axis_start, axis_start + axis_size, axis_count + 1)
         for axis_start, axis_size, axis_count in zip(lower, size, count, strict=True)
     )
-
-    def cell_index(located_points: FloatArray) -> NDArray[np.int64]:
-        columns_rows = np.minimum(((view.project(located_points) - lower) / size * count).astype(np.int64), count - 1)
-        return np.asarray(columns_rows[:, 1] * count[0] + columns_rows[:, 0])
-
+    columns_rows = np.minimum(((view.project(points) - lower) / size * count).astype(np.int64), count - 1)
+    cells = columns_rows[:, 1] * count[0] + columns_rows[:, 0]
     has_value = ~np.isnan(values)
-    cells = cell_index(points)
     cell_count = int(count.prod())
     point_counts = np.bincount(cells, minlength=cell_count)
     cells = cells[has_value]
@@ -145,7 +113,8 @@ def _average_cells(
             [_weighted_average(group, weights, median) for group, weights in zip(groups, weight_groups, strict=True)]
         )
     shape = (count[1], count[0])
-    return x_edges, y_edges, average.reshape(shape), value_counts.reshape(shape), point_counts.reshape(shape)
+    counts = value_counts.reshape(shape), point_counts.reshape(shape)
+    return _CellMap(title, view, x_edges, y_edges, average.reshape(shape), *counts)
 
 
 def _weighted_average(values: FloatArray, weights: FloatArray, median: bool) -> float:
@@ -159,18 +128,24 @@ def _weighted_average(values: FloatArray, weights: FloatArray, median: bool) -> 
     return float(values[order][np.searchsorted(cumulative_weights, cumulative_weights[-1] / 2)])
 
 
-def _draw_cells(
-    axes: Axes,
-    x_edges: FloatArray,
-    y_edges: FloatArray,
-    mean: FloatArray,
-    value_counts: FloatArray,
-    point_counts: FloatArray,
-    scale: Scale,
-    has_missing: bool,
-) -> None:
-    colors = scale.colors(np.nan_to_num(mean, nan=scale.low, posinf=scale.high))
-    colors[np.isnan(mean)] = (0.93, 0.94, 0.95, 1)
+def _draw_maps(rows: Sequence[Sequence[_CellMap]], width: float, scale: Scale, label: str, has_missing: bool) -> Figure:
+    """Draw rows of maps, ``width`` inches wide, on one colour scale."""
+    averages = np.concatenate([cell_map.averages.ravel() for row in rows for cell_map in row])
+    aspect = max(float(np.ptp(cell_map.y_edges) / np.ptp(cell_map.x_edges)) for cell_map in rows[0])
+    with styled_figure(width, (float(np.clip(4.0 * aspect, 1.6, 4.6)) + 0.8) * len(rows)) as figure:
+        panels = figure.subplots(len(rows), len(rows[0]), squeeze=False)
+        for axes, cell_map in zip(panels.ravel(), chain(*rows), strict=True):
+            _draw_cells(axes, cell_map, scale, has_missing)
+            axes.set(xlabel=cell_map.view.names[0], ylabel=cell_map.view.names[1], title=cell_map.title)
+        style = {"shrink": 0.85, "aspect": 26 * len(rows), "pad": 0.015, "extend": scale.extend(averages)}
+        label_color_bar(figure.colorbar(scale.mappable, ax=list(panels.ravel()), **style), label, scale)
+    return figure
+
+
+def _draw_cells(axes: Axes, cell_map: _CellMap, scale: Scale, has_missing: bool) -> None:
+    x_edges, y_edges, averages = cell_map.x_edges, cell_map.y_edges, cell_map.averages
+    colors = scale.colors(np.nan_to_num(averages, nan=scale.low, posinf=scale.high))
+    colors[np.isnan(averages)] = (0.93, 0.94, 0.95, 1)
     axes.pcolormesh(x_edges, y_edges, colors, edgecolors="white", linewidth=1.2)
     axes.set_aspect("equal")
     axes.grid(visible=False)
@@ -186,19 +161,21 @@ def _draw_cells(
         "annotation_clip": False,
         "in_layout": False,
     }
-    for row, column in np.ndindex(mean.shape):
+    for row, column in np.ndindex(averages.shape):
         middle = ((x_edges[column] + x_edges[column + 1]) / 2, (y_edges[row] + y_edges[row + 1]) / 2)
         luminance = float(colors[row, column, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])
         color = INK if luminance > 0.18 else "white"
-        if not np.isnan(mean[row, column]):
-            text = "∞" if np.isinf(mean[row, column]) else _format_cell_value(float(mean[row, column]))
+        if not np.isnan(averages[row, column]):
+            text = _format_cell_value(float(averages[row, column]))
             axes.annotate(text, middle, (0, 5), fontsize=9, color=color, **text_style)
-        if point_counts[row, column]:
-            text = f"{value_counts[row, column]}/{point_counts[row, column]}" if has_missing else f"{point_counts[row, column]}"
+        if point_count := cell_map.point_counts[row, column]:
+            text = f"{cell_map.value_counts[row, column]}/{point_count}" if has_missing else f"{point_count}"
             axes.annotate(text, middle, (0, -6), fontsize=7, color=color, **text_style)
 
 
 def _format_cell_value(value: float) -> str:
+    if np.isinf(value):
+        return "∞"
     if abs(value) < 1e-9:
         return "0"
     return (

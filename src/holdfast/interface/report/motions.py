@@ -113,13 +113,7 @@ def stick_motion_figure(
 ) -> Figure:
     """Plot a stick figure at the start (grey) and end (black) of a motion, next to one quantity over time.
 
-    Args:
-        motion: Motion of the stick figure.
-        views: Projections in which it is drawn.
-        panel: Quantity over time.
-        caption: Line below the figure.
-        xlabel: Label of the time axis, with the unit.
-        path_label: Legend entry of the desired path of the tool, which is drawn dashed.
+    ``path_label`` is the legend entry of the desired path of the tool, which is drawn dashed.
     """
     with styled_figure(WIDTH_IN * (1.0 if len(views) == 1 else 1.4), 4.4) as figure:
         *view_axes, panel_axes = figure.subplots(1, len(views) + 1)
@@ -145,19 +139,10 @@ def draw_chain(
     zorder: float = 3.0,
     **line_options: Any,
 ) -> None:
-    """Draw an arm as a chain of links: its base as a square, its joints as nodes, and its tool as a diamond.
+    """Draw the projected corners (K, 2) of an arm: its base as a square, its joints as nodes, and its tool as a diamond.
 
-    Args:
-        axes: Axes to draw into.
-        chain: (K, 2) projected corners, base first and tool last, m.
-        color: Colour of the links.
-        linewidth: Width of the links, points.
-        squares: (K,) flags of corners drawn as squares (prismatic joints).
-        filled: (K,) flags of corners drawn filled (locked joints).
-        node_size: Size of the nodes, points; 0 to omit them.
-        tool_color: Colour of the diamond; empty to omit it.
-        zorder: Drawing order of the links.
-        line_options: Further matplotlib options of the links.
+    ``squares`` (K,) are flags of prismatic joints, and ``filled`` (K,) of locked joints. ``node_size`` 0 omits the nodes, and
+    an empty ``tool_color`` the diamond. Widths and sizes are in points; further options are those of the lines.
     """
     axes.plot(*chain.T, color=color, linewidth=linewidth, solid_joinstyle="round", zorder=zorder, **line_options)
     is_square, is_filled = (np.zeros(len(chain), dtype=bool) if flags is None else flags for flags in (squares, filled))

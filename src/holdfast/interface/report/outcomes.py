@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -44,14 +43,9 @@ class Stack:
 def stack_figure(
     stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, *, level: str = "", caption: str = ""
 ) -> Figure:
-    """Plot groups of stacked bars with the interval of the first outcome.
+    """Plot groups of stacked bars, from top to bottom, with the interval of the first of at most five outcomes.
 
-    Args:
-        stacks: Groups from top to bottom.
-        outcomes: (K,) names of the outcomes, at most five.
-        xlabel: Label of the axis of the fractions.
-        level: Legend entry of the marks of the groups; none if empty.
-        caption: Lines below the figure; none if empty.
+    ``level`` is the legend entry of the marks of the groups, and ``caption`` the text below the figure; both may be empty.
     """
     bar_count = sum(len(stack.bars) for stack in stacks)
     with styled_figure(WIDTH_IN, 1.2 + 0.215 * bar_count + 0.12 * len(stacks)) as figure:
@@ -99,10 +93,8 @@ def stack_figure(
         legend_handles.append(Line2D([], [], color=INK, linewidth=1.4, label=f"95 % interval of {outcomes[0]}"))
         if level:
             legend_handles.append(Line2D([], [], color=INK, linewidth=1.4, linestyle=(0, (2, 1)), label=level))
-        legend_location: Literal["outside upper center", "outside lower center"] = (
-            "outside upper center" if caption else "outside lower center"
-        )
-        figure.legend(handles=legend_handles, loc=legend_location, ncols=3, columnspacing=2.0)
+        side = "upper" if caption else "lower"
+        figure.legend(handles=legend_handles, loc=f"outside {side} center", ncols=3, columnspacing=2.0)
         if caption:
             figure.supxlabel("\n".join(format_label(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
     return figure
@@ -114,7 +106,6 @@ class Spread:
 
     label: str
     quantiles: FloatArray
-    log: bool = False
 
 
 def spread_figure(names: Sequence[str], spreads: Sequence[Spread]) -> Figure:
@@ -143,10 +134,7 @@ def _draw_quantile_bars(axes: Axes, spread: Spread) -> None:
         axes.plot(q50, row, "o", color=BLUE, markersize=5)
     axes.set_xlabel(spread.label)
     max_quantile = float(np.nanmax(spread.quantiles, initial=0.0))
-    if spread.log:
-        axes.set_xscale("log")
-    else:
-        axes.set_xlim(0, 1.08 * max_quantile if max_quantile > 1e-9 else 1.0)
+    axes.set_xlim(0, 1.08 * max_quantile if max_quantile > 1e-9 else 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)

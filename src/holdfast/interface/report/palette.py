@@ -14,3 +14,11 @@ PURPLE = "#a8497f"
 AMBER = "#c58a00"
 LIGHT_BLUE = "#4aa3d6"
 EMPTY_COLOR = "#e9ecef"  # cells and points without a value
+# Colour, line width, line style and marker of each kind of stationary point; sinks stand out.
+KIND_STYLES: dict[str, tuple[str, float, str, str]] = {
+    "solution": (GREEN, 1.6, "-", "o"),
+    "sink": (ORANGE, 3.0, "-", "v"),
+    "saddle": (BLUE, 1.3, "-", "X"),
+    "source": (PURPLE, 1.3, "--", "^"),
+    "degenerate": (INK, 1.3, ":", "s"),
+}

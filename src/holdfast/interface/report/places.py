@@ -111,12 +111,9 @@ def _draw_position_map(axes: Axes, plane: Plane, values: FloatArray, scale: Scal
 
 
 def bin_positions(points: FloatArray, values: FloatArray, bins: int) -> tuple[Plane, FloatArray]:
-    """Group positions into square cells; return the plane of the cells, and the mean values (B, C) of each cell.
+    """Group positions (P, 2), m, into square cells, ``bins`` along the longer edge.
 
-    Args:
-        points: (P, 2) positions, m.
-        values: (P, C) values, NaN for a position without a value.
-        bins: Number of cells along the longer edge.
+    Returns the plane of the cells, and the mean values (B, C) of each cell; values (P, C) are NaN where a position has none.
     """
     lower, upper = points.min(axis=0), points.max(axis=0)
     cell_size = max(float((upper - lower).max()), 1e-9) / bins

@@ -78,44 +78,42 @@ class Scene:
         points: (N, 3) points with a value.
         values: (N,) values of the points, which determine their colours.
         missing: (M, 3) points without a value.
-        chain: (K, 3) corners of the polyline of the arm; empty if there is no arm.
-        nodes: (J, 3) joints, which are marked and numbered from 1.
-        square: (J,) flags of joints that are drawn as squares instead of circles.
+        chain: (K, 3) base, joints, and tool of the arm; empty if there is no arm.
+        square: (K - 2,) flags of joints that are drawn as squares instead of circles.
         box: (2, 3) opposite corners of a box; None if there is none.
     """
 
-    points: FloatArray
-    values: FloatArray
-    missing: FloatArray
+    points: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    values: FloatArray = field(default_factory=lambda: np.zeros(0))
+    missing: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     _: KW_ONLY
     chain: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
-    nodes: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     square: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
     box: FloatArray | None = None
 
     @property
     def extent(self) -> FloatArray:
         """Lowest and highest coordinates (2, 3) of all elements."""
-        parts = [self.points, self.missing, self.chain, self.nodes, *([] if self.box is None else [self.box])]
-        everything = np.concatenate(parts)
+        everything = np.concatenate([self.points, self.missing, self.chain, *([] if self.box is None else [self.box])])
         if not len(everything):
             return np.array([[-0.5] * 3, [0.5] * 3])
         return np.array([everything.min(axis=0), everything.max(axis=0)])
 
 
 def draw_view(
-    axes: Axes, scene: Scene, view: View, scale: Scale, dot_area: float, spans: tuple[float, float], width: float
+    axes: Axes,
+    scene: Scene,
+    view: View,
+    scale: Scale,
+    dot_area: float,
+    spans: tuple[float, float],
+    width: float,
+    center: FloatArray | None = None,
 ) -> None:
     """Draw a scene in projection, with equal axes.
 
-    Args:
-        axes: Axes to draw into.
-        scene: Scene to draw.
-        view: Projection.
-        scale: Colour scale of the values.
-        dot_area: Area of a dot, square points (1/72 inch).
-        spans: Lengths of the horizontal and vertical axis, m.
-        width: Approximate width of the panel, inches.
+    The axes have the lengths ``spans``, m, and the point ``center`` (3,), m, in their middle, by default that of the scene. The
+    panel is about ``width`` inches wide, and ``dot_area`` is in square points (1/72 inch).
     """
     if len(scene.missing):
         x, y = view.project(scene.missing).T
@@ -138,7 +136,7 @@ def draw_view(
             )
         )
     _draw_chain(axes, scene, view, 72 * width / spans[0])
-    middle = view.project(scene.extent.mean(axis=0))
+    middle = view.project(scene.extent.mean(axis=0) if center is None else center)
     axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
     axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
     axes.set_aspect("equal")
@@ -154,7 +152,7 @@ def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
     projected_chain = view.project(scene.chain)
     halo = [withStroke(linewidth=5.4, foreground="white")]
     draw_chain(axes, projected_chain, linewidth=2.8, node_size=0.0, solid_capstyle="round", path_effects=halo)
-    nodes = view.project(scene.nodes)
+    nodes = projected_chain[1:-1]
     for marker, chosen in (("o", ~scene.square), ("s", scene.square)):
         axes.plot(*nodes[chosen].T, marker, color="white", markeredgecolor=INK, markeredgewidth=1.4, markersize=6, zorder=3.2)
     occupied = np.zeros((0, 2))
@@ -226,15 +224,10 @@ def _place_label(line: FloatArray, occupied: FloatArray, position: FloatArray, t
 def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
     """Plot projections side by side, all on one scale, with a colour bar if there are values.
 
-    Args:
-        scene: Scene to draw.
-        views: Projection of each panel.
-        scale: Colour scale of the values.
-        label: Label of the colour bar.
-        legend: Kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and text of each legend entry.
+    The legend has a kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and a text for each entry.
     """
     panel_width = 4.1 if len(views) > 1 else 5.0
-    spans, height = fit_view_spans(scene, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
+    spans, height = fit_view_spans(scene.extent, views, panel_width, 2.0, 4.6 if len(views) > 1 else 5.0)
     with styled_figure(WIDTH_IN if len(views) > 1 else panel_width + 2.2, height + 1.5) as figure:
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
@@ -268,10 +261,7 @@ def label_color_bar(colorbar: Colorbar, label: str, scale: Scale) -> None:
 def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
     """Choose the area of a dot, in square points, so that the dots cover about two thirds of their region.
 
-    Args:
-        scene: Scene with the dots.
-        views: Projections of all panels.
-        scale: Scale of the figure, inches per metre.
+    ``scale`` is the scale of the figure, inches per metre.
     """
     dots = np.concatenate([scene.points, scene.missing])
     if len(dots) < 2:
@@ -282,10 +272,10 @@ def choose_dot_area(scene: Scene, views: Sequence[View], scale: float) -> float:
 
 
 def fit_view_spans(
-    scene: Scene, views: Sequence[View], width: float, min_height: float, max_height: float
+    extent: FloatArray, views: Sequence[View], width: float, min_height: float, max_height: float
 ) -> tuple[tuple[float, float], float]:
-    """Return the lengths of the axes, m, that contain the scene in every view, and the height of a panel, inches."""
-    across, upward = 1.2 * np.max([np.ptp(view.project(scene.extent), axis=0) for view in views], axis=0)
+    """Return the lengths of the axes, m, that contain an extent (2, 3) in every view, and the height of a panel, inches."""
+    across, upward = 1.2 * np.max([np.ptp(view.project(extent), axis=0) for view in views], axis=0)
     across, upward = max(across, 0.1 * upward, 1e-6), max(upward, 0.1 * across, 1e-6)
     height = float(np.clip(width * upward / across, min_height, max_height))
     if height / width < upward / across:

@@ -65,12 +65,9 @@ class Timeline:
 
 
 def draw_stacked_panels(time: FloatArray, panels: Sequence[Timeline], about: str) -> Markup:
-    """Draw panels one below another, each with a legend to its right if it has several lines; return SVG.
+    """Draw panels over times (T,), s, one below another, each with a legend to its right if it has several lines.
 
-    Args:
-        time: (T,) time of all lines, s.
-        panels: Panels from top to bottom.
-        about: Text alternative of the figure.
+    Returns SVG with the text alternative ``about``.
     """
     layouts = [_PanelLayout(time, timeline, 190, 8) for timeline in panels]
     legends = [
@@ -101,13 +98,9 @@ def draw_stacked_panels(time: FloatArray, panels: Sequence[Timeline], about: str
 
 
 def draw_small_multiples(time: FloatArray, panels: Sequence[Timeline], about: str, xlabel: str = "time, s") -> Markup:
-    """Draw small panels, three in a row, with one legend below, that of the panel with the most lines; return SVG.
+    """Draw small panels over times (T,), three in a row, with one legend below, that of the panel with the most lines.
 
-    Args:
-        time: (T,) time of all lines.
-        panels: Panels in reading order.
-        about: Text alternative of the figure.
-        xlabel: Label of the time axis, with the unit.
+    Returns SVG with the text alternative ``about``.
     """
     column_count = min(3, len(panels))
     layouts = [_PanelLayout(time, timeline, 132, 4) for timeline in panels]

@@ -18,12 +18,8 @@ DRAWING_SIDE_PX = 480  # of each of the drawings side by side
 
 
 def draw_view_svg(machine: CompiledArm, state: State, ghosts: Sequence[Sequence[float]] = ()) -> str:
-    """Draw a view as SVG text: from the side and from above, or onto the plane of a planar arm.
-
-    Args:
-        machine: Compiled arm.
-        state: State with the configuration and the failed joints.
-        ghosts: Configurations (n,) of further arms in the drawing.
+    """Draw a view as SVG text, with ghosts in further configurations (n,): from the side and from above, or onto the plane of a
+    planar arm.
     """
     locked = [joint for joint in state.failed_joints if joint not in state.free]
     cell = None if machine.cell is None else machine.cell_with_moved(state.moved)

@@ -93,8 +93,8 @@ def compile_llvm_text(text: str, level: int) -> bytes:
     return bytes(_target_machine(level).emit_object(_llvm().parse_assembly(text)))
 
 
-class MachineCode:
-    """Object code in memory, ready to be called."""
+class LoadedCode:
+    """Object code in memory."""
 
     def __init__(self, data: bytes) -> None:
         llvm = _llvm()
@@ -102,9 +102,21 @@ class MachineCode:
             self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine(0))
             self._engine.add_object_file(llvm.object_file.ObjectFileRef.from_data(data))
             self._engine.finalize_object()
-            self.address: int = self._engine.get_function_address(FUNCTION_NAME)
         except RuntimeError as error:
             raise KernelError(f"compiled code cannot be loaded: {error}") from error
+
+    def find_function(self, name: str) -> int:
+        """Return the address of a function, which is valid as long as this object exists."""
+        address: int = self._engine.get_function_address(name)
+        return address
+
+
+class MachineCode(LoadedCode):
+    """Object code of a program, ready to be called."""
+
+    def __init__(self, data: bytes) -> None:
+        super().__init__(data)
+        self.address = self.find_function(FUNCTION_NAME)
         # Calls release the interpreter lock.
         kind = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64)
         self.call: Callable[[int, int, int, int], None] = kind(self.address)

@@ -121,6 +121,12 @@ def joint_motion(kind: str, axis: FloatArray, value: float) -> FloatArray:
     return pose
 
 
+def rotation_to_axis(axis: FloatArray) -> FloatArray:
+    """Return a rotation (3, 3) whose third column is a unit ``axis``: to the frame of a joint from one with the axis as z."""
+    perpendicular = np.linalg.svd(axis[None])[2][1]
+    return np.column_stack([perpendicular, np.cross(axis, perpendicular), axis])
+
+
 def cos_sin(angle: float) -> tuple[float, float]:
     """Return cosine and sine, exact at quarter turns."""
     quarters = round(angle / (np.pi / 2))

@@ -258,6 +258,11 @@ class Cell:
 
     # ---- data -------------------------------------------------------------------------------------------------
 
+    @property
+    def changes_arm(self) -> bool:
+        """True if the cell holds objects or chooses a collision model, so that the arm has another shape than by default."""
+        return bool(self.held or self.shape or self.hold) or self.spheres_to is not None
+
     @cached_property
     def digest(self) -> str:
         """SHA-256 of the geometry and margins, with triangles and points, without names and paths of files.

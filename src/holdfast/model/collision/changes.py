@@ -30,15 +30,21 @@ def pair_lipschitz_bounds(
         upper: (n,) upper corner of the box, finite, rad and m.
     """
     extensions, offsets = _joint_extents(arm, lower, upper)
+    positions = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    links = np.array([part.link for part in capsules], dtype=np.int64)[positions]
+    ends = np.array([[part.start, part.end] for part in capsules]).reshape(-1, 2, 3)
+    end_distances = np.linalg.norm(ends, axis=2).max(axis=1)[positions]
+    # Sums over the joints before each one, for the way inwards from an axis to the first capsule and outwards to the second.
+    offset_sums, extension_sums = (np.append(0.0, np.cumsum(values)) for values in (offsets, extensions))
     bounds = np.zeros((len(pairs), arm.n))
-    for pair_bounds, (first_index, second_index) in zip(bounds, pairs, strict=True):
-        first, second = capsules.parts[first_index], capsules.parts[second_index]
-        end_distances = [max(float(np.linalg.norm(point)) for point in (part.start, part.end)) for part in (first, second)]
-        for joint in range(first.link + 1, second.link + 1):
-            # Outwards from axis k to the second capsule, and inwards from the axis to the first.
-            outward = _bound_outward_distance(extensions, offsets, joint, second.link) + end_distances[1]
-            inward = offsets[first.link + 1 : joint + 1].sum() + extensions[first.link + 1 : joint].sum() + end_distances[0]
-            pair_bounds[joint] = 1.0 if arm.prismatic[joint] else min(outward, inward)
+    for joint in range(arm.n):
+        moving = np.flatnonzero((links[:, 0] < joint) & (joint <= links[:, 1]))
+        first, second = links[moving, 0] + 1, links[moving, 1] + 1
+        outward = extensions[joint] + offset_sums[second] - offset_sums[joint + 1]
+        outward = outward + extension_sums[second] - extension_sums[joint + 1] + end_distances[moving, 1]
+        inward = offset_sums[joint + 1] - offset_sums[first] + extension_sums[joint] - extension_sums[first]
+        inward = inward + end_distances[moving, 0]
+        bounds[moving, joint] = 1.0 if arm.prismatic[joint] else np.minimum(outward, inward)
     return bounds
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
+from functools import lru_cache
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,7 @@ from holdfast.model.collision.segments import LineSegment, closest_parameters, d
 
 if TYPE_CHECKING:
     from holdfast.model.collision.exact.exactness import ExactQueries
+    from holdfast.model.collision.exact.narrow_phase import ArmBody
 
 Pair = tuple[int, int]
 
@@ -94,12 +96,13 @@ class Clearance:
         self.itself = itself
         if itself:
             self._choose_pairs()
+        self._own_pair_names = [self._pair_name(pair) for pair in self.pairs]
         self._set_cell(cell)
 
     def _set_cell(self, cell: Cell | None) -> None:
         obstacles = None if cell is None or not len(cell) else Obstacles(self.arm, self.capsules, cell)
         self.cell, self.obstacles = cell, obstacles
-        self.pair_names = [self._pair_name(pair) for pair in self.pairs] + ([] if obstacles is None else obstacles.names)
+        self.pair_names = self._own_pair_names + ([] if obstacles is None else obstacles.names)
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if obstacles is None else obstacles.margins])
 
     def with_cell(self, cell: Cell | None) -> Clearance:
@@ -109,8 +112,9 @@ class Clearance:
 
     def _copy_with_cell(self, cell: Cell | None) -> Clearance:
         clearance_copy = copy(self)
-        vars(clearance_copy).pop("exactness", None)
         clearance_copy._set_cell(cell)
+        if cell is not None:
+            vars(clearance_copy)["self_only"] = self.self_only  # with its kernels
         return clearance_copy
 
     @classmethod
@@ -121,7 +125,12 @@ class Clearance:
         a cell there is then nothing to check, and the result is None.
         """
         is_planar = plane_normal(arm) is not None
-        return None if is_planar and cell is None else cls(arm, cell=cell, itself=not is_planar)
+        if is_planar and cell is None:
+            return None
+        if cell is not None and cell.changes_arm:
+            return cls(arm, cell=cell, itself=not is_planar)
+        clearance = _default_clearance(arm, not is_planar)
+        return clearance if cell is None else clearance._copy_with_cell(cell)
 
     # ---- choice of pairs ---------------------------------------------------------------------------------------
 
@@ -314,14 +323,22 @@ class Clearance:
     @cached_property
     def exactness(self) -> ExactQueries:
         """Exact collision queries, computed by a library."""
+        from holdfast.model.collision.exact.exactness import ExactQueries  # slow to import
+        from holdfast.model.collision.exact.narrow_phase import arm_bodies
+
         ignored = [ignored_pair.pair for ignored_pair in self.ignored]
         self_clearance = self.self_only
         held_objects = () if self.cell is None else self.cell.held
-        from holdfast.model.collision.exact.exactness import ExactQueries  # slow to import
-
+        bodies = arm_bodies(self.arm, self.capsules, held_objects) if held_objects else self_clearance._own_bodies
         return ExactQueries(
-            self.arm, self.capsules, (self_clearance, self_clearance.by_pair), self.pairs, ignored, self.obstacles, held_objects
+            self.arm, self.capsules, bodies, (self_clearance, self_clearance.by_pair), self.pairs, ignored, self.obstacles
         )
+
+    @cached_property
+    def _own_bodies(self) -> tuple[ArmBody, ...]:
+        from holdfast.model.collision.exact.narrow_phase import arm_bodies
+
+        return arm_bodies(self.arm, self.capsules)
 
     def sign(self, q: ArrayLike) -> BoolArray:
         """Return whether no checked link touches another or an object at ``q`` (N, n) or (n,), (N,) or a scalar.
@@ -424,6 +441,12 @@ class Clearance:
 
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
+
+
+@lru_cache(maxsize=16)
+def _default_clearance(arm: Arm, itself: bool) -> Clearance:
+    """Return the default clearance of an arm without a cell; the kernels of all its copies in cells are compiled once."""
+    return Clearance(arm, itself=itself)
 
 
 def _constant_if_finite(rows: FloatArray, value: float) -> FloatArray:

@@ -7,8 +7,8 @@ the object is monotonic in the distance; inside, the depth is used directly.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cache, reduce
+from collections.abc import Callable, Sequence
+from functools import cache, lru_cache, reduce
 from itertools import groupby
 
 import casadi as ca
@@ -17,7 +17,7 @@ import numpy as np
 from holdfast.core.caching import cached_property
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.kernels.disk_cache import cached_kernel
-from holdfast.kernels.kernel import Kernel, SingleRowKernel
+from holdfast.kernels.kernel import Kernel, SingleRowKernel, default_backend
 from holdfast.kernels.linalg import Vector, select_smallest
 from holdfast.kernels.program import SX
 from holdfast.model.arm import kinematics
@@ -199,6 +199,12 @@ def _select_vector(condition: SX, a: Vector, b: Vector) -> Vector:
 # ---- objects --------------------------------------------------------------------------------------------------------------
 
 
+@lru_cache(maxsize=64)
+def _share_kernel(build: Callable[[ArmData, SphereCover], Kernel], arm: ArmData, spheres: SphereCover, _backend: str) -> Kernel:
+    """Return the kernel of an arm and its spheres, one for all cells."""
+    return build(arm, spheres)
+
+
 class FormulaObjects:
     """Objects with a distance formula, against the spheres of an arm.
 
@@ -224,11 +230,11 @@ class FormulaObjects:
 
     @cached_property
     def _distance_kernel(self) -> Kernel:
-        return distance_kernel(self.arm, self.spheres)
+        return _share_kernel(distance_kernel, self.arm, self.spheres, default_backend())
 
     @cached_property
     def _nearest_kernel(self) -> Kernel:
-        return nearest_gradient_kernel(self.arm, self.spheres)
+        return _share_kernel(nearest_gradient_kernel, self.arm, self.spheres, default_backend())
 
     @cached_property
     def _uninflated_blocks(self) -> FloatArray:

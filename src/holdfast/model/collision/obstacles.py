@@ -163,6 +163,11 @@ class Obstacles:
             self.arm, self.spheres, self._formula_objects.objects, offsets, self._own_margins[self._formula_indices]
         )
 
+    @property
+    def has_only_formulas(self) -> bool:
+        """True if every object has a distance formula, and none a grid."""
+        return len(self._formula_indices) == len(self.cell)
+
     # ---- evaluation ----------------------------------------------------------------------------------------------
 
     def nearest_margin_and_gradient(self, q: FloatArray) -> tuple[FloatArray, IndexArray, FloatArray]:
@@ -210,13 +215,13 @@ class Obstacles:
 
     def smallest_by_link(self, q: FloatArray) -> FloatArray:
         """Return the least distance (N, L) of every link, m."""
-        if len(self._formula_indices) == len(self.cell) and len(self.links):
+        if self.has_only_formulas and len(self.links):
             return self._formula_objects.smallest_by_link(q)
         return np.asarray(self.pair_distances(q).reshape(len(q), len(self.links), len(self.cell)).min(axis=2))
 
     def pair_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m if a pair may touch."""
-        if len(self._formula_indices) == len(self.cell) and len(self.links):
+        if self.has_only_formulas and len(self.links):
             return self._formula_objects.link_distances(q).reshape(len(q), len(self.pairs))
         distances = np.empty((len(q), len(self.links), len(self.cell)))
         if len(self._formula_indices) and len(self.links):
@@ -227,7 +232,7 @@ class Obstacles:
 
     def distances_of_pairs(self, q: FloatArray, pairs: IndexArray) -> FloatArray:
         """Return the entry (N,) of :meth:`pair_distances` for one pair (N,) at each configuration (N, n)."""
-        if len(self._formula_indices) == len(self.cell):
+        if self.has_only_formulas:
             return self._formula_objects.distances_of_pairs(q, *np.divmod(pairs, len(self.cell)))
         return self.pair_distances(q)[np.arange(len(q)), pairs]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -30,6 +31,7 @@ class SphereCover:
     part: IndexArray
 
 
+@lru_cache(maxsize=16)
 def make_sphere_cover(capsules: Capsules, excess_fraction: float = SPHERE_EXCESS_FRACTION) -> SphereCover:
     """Make spheres that together contain every capsule.
 

@@ -46,6 +46,7 @@ class UndecidedGoal:
         target: Goal.
         configurations: (K, n) valid configurations of the goal, rad and m.
         pose_indices: (K,) index of the pose of the goal that each configuration meets.
+        reach_proofs: Proof for each pose of the goal that it is too far away or too near, or None; only without configurations.
         box_proofs: Proof for each pose of the goal that no configuration meets it, or None; only without configurations.
         reasons: Sentences about the obstacles to a motion, in the order in which they were found.
         is_proved_unreachable: True if a proof shows that no configuration meets the goal.
@@ -56,6 +57,7 @@ class UndecidedGoal:
     target: RecoveryGoal
     configurations: FloatArray
     pose_indices: IndexArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+    reach_proofs: tuple[str | None, ...] = ()
     box_proofs: tuple[str | None, ...] = ()
     reasons: tuple[str, ...] = ()
     is_proved_unreachable: bool = False
@@ -76,6 +78,7 @@ class RecoveryAttempt:
         recovery: Request, and the findings along the tool path.
         search: Search for configurations that meet the rows of the task, and valid motions.
         search_count: Number of searches for a route where straight lines are blocked.
+        relaxes_rows: True to search motions with relaxed rows if the whole goal is not met.
         rng: Random number generator.
         timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s; None: no timed motion.
     """
@@ -83,6 +86,7 @@ class RecoveryAttempt:
     recovery: Recovery
     search: PoseSearch
     search_count: int
+    relaxes_rows: bool
     rng: np.random.Generator
     timing_limits: tuple[FloatArray, float] | None
     _motions: list[FloatArray] = field(default_factory=list, init=False)
@@ -144,7 +148,8 @@ class RecoveryAttempt:
                 first_lost is None or name_blocking_pair(self.search, first_poses, q_current, self.recovery.seed)
             ):
                 self.recovery = replace(self.recovery, unknown=f"{rest.why}; {shape_doubt}")
-            rest, motions = follow_with_relaxed_rows(rest, self.search, path, q_current, self.rng)
+            if self.relaxes_rows:
+                rest, motions = follow_with_relaxed_rows(rest, self.search, path, q_current, self.rng)
             self._record_timeout_step("while searching for rows of the tool path to relax")
         if not motions:
             return rest
@@ -244,6 +249,9 @@ class RecoveryAttempt:
             reason = f"at the goal {describe_doubtful_contact(space.clearance, target.q, recovery.margin)}"
             return replace(recovery, ending=RecoveryOutcome.NOTHING_FOUND, reason=reason, unknown=reason)
         if not len(goal.configurations):
+            reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
+            goal = replace(goal, reach_proofs=tuple(reach_proofs), box_proofs=(None,) * len(reach_proofs))
+        if None in goal.reach_proofs:
             q, pose_indices, proofs = enumerate_collision_free(recovery, self.search.solver, space, target.poses)
             goal = replace(goal, configurations=q, pose_indices=pose_indices, box_proofs=tuple(proofs))
         self._record_timeout_step("while searching for configurations of the goal")
@@ -285,11 +293,10 @@ class RecoveryAttempt:
     def _prove_unreachable(self, goal: UndecidedGoal) -> UndecidedGoal:
         """Add the proof that no configuration meets the goal, or the unknown property where there is no proof."""
         recovery, target, space = goal.recovery, goal.target, self.search.space
-        reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
-        proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(reach_proofs, goal.box_proofs, strict=True)]
+        proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(goal.reach_proofs, goal.box_proofs, strict=True)]
         if None not in proofs:
             proof = f"{proofs[0]}{'' if recovery.within is None else ANY_ORIENTATION}"
-            kind: ProofKind = "reach bound" if None not in reach_proofs else "boxes"
+            kind: ProofKind = "reach bound" if None not in goal.reach_proofs else "boxes"
             within = recovery.tolerance is not None and all(
                 proves_no_solution(recovery.degraded, recovery.task, pose, space, recovery.tolerance) for pose in target.poses
             )
@@ -308,7 +315,8 @@ class RecoveryAttempt:
     def _plan_with_relaxed_rows(self, goal: UndecidedGoal) -> Recovery:
         """Find a motion to the goal with the fewest relaxed rows; without one, report that the goal is not reached."""
         recovery, locks = goal.recovery, goal.target.mismatched_locks
-        relaxed_goals = [(find_relaxed_goals(self.search, pose, goal.q_start, self.rng), pose) for pose in goal.target.poses]
+        poses = goal.target.poses if self.relaxes_rows else ()
+        relaxed_goals = [(find_relaxed_goals(self.search, pose, goal.q_start, self.rng), pose) for pose in poses]
         offers = [(choice, pose) for choices, pose in relaxed_goals for choice in choices]
         offers.sort(key=lambda offer: len(offer[0].relaxed_rows.names))  # stable: of one pose they are in order
         choices = tuple(choice.relaxed_rows for choice, _ in offers)

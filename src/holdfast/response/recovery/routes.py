@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
+from holdfast.response.recovery.compiled.edges import RouteSearch
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 
 _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
+# Largest possible motion between checked configurations and room in addition to what is required, m, and number of samples.
+_SEARCH_LEVELS = ((0.05, 2e-3, 5000), (0.02, 1e-3, 10_000), (0.005, 0.0, 10_000))
+_EXACT_SEARCH_LEVELS = tuple((0.02, -overlap, 5000) for overlap in (0.0, 5e-3, 0.01, 0.02, 0.04))
+_FINAL_SHORTENING = (0.01, 2e-4, 200)  # the same two lengths, and shortcuts in a row that do not help
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
 _NODE_SPACING_STEPS = 5  # pieces of an extension from one node to the next
@@ -69,6 +74,7 @@ def find_route(
     free_goals = np.flatnonzero(space.are_segments_valid(np.repeat(start[None], len(goals), axis=0), goals)[order])
     best_route: Route | None = None
     closed_in, failure_count = list[str](), 0
+    compiled_search = space.compiled_search(metric)
     if free_goals.size:
         nearest = int(order[free_goals[0]])
         best_route = Route(np.stack([start, goals[nearest]]), float(direct_lengths[nearest]), lower_bound, nearest, True)
@@ -86,19 +92,28 @@ def find_route(
             break  # along constraints a search takes long, and the bound hardly limits the possible improvement
         if space.manifold is None and failure_count == max_failures:
             break
-        connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
-        closed_in.append(space.closed_in)
-        if all(closed_in[-2:]) and len(closed_in) > 1:
-            return None
+        connection = None
+        if compiled_search is not None:
+            connection = _search_compiled(compiled_search, space, start, goals[closer_goals], rng)
+        is_short = connection is not None
+        if connection is None and (compiled_search is None or space.edges is None):
+            connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
+            closed_in.append(space.closed_in)
+            if all(closed_in[-2:]) and len(closed_in) > 1:
+                return None
         if connection is None:
             failure_count += not space.closed_in
             continue
         q, goal = connection
-        q = shorten_path(space, metric, q, rng)
+        if not is_short:
+            q = shorten_path(space, metric, q, rng)
         new_length = float(metric.cumulative_length(q)[-1])
         if new_length < length:
             best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
     space.closed_in = ""
+    if best_route is not None and not best_route.straight and compiled_search is not None:
+        q = _shorten_compiled(compiled_search, space, best_route.q, rng)
+        best_route = replace(best_route, q=q, length=float(metric.cumulative_length(q)[-1]), straight=len(q) == 2)
     return best_route
 
 
@@ -122,6 +137,47 @@ def find_reachable_goals(
             break
         is_reached[np.flatnonzero(~is_reached)[route.goal]] = True
     return is_reached
+
+
+def _search_compiled(
+    search: RouteSearch, space: FreeSpace, start: FloatArray, goals: FloatArray, rng: np.random.Generator
+) -> tuple[FloatArray, int] | None:
+    """Return a short route from start (n,) to one of the goals (G, n) and the index of the goal, or None if none is proved.
+
+    A route is searched with additional room and few checks. If its proof fails, the next search has less room and more
+    checks. With exact distances, the spheres around the arm may overlap objects, by more in each search.
+    """
+    assert space.search_edges is not None
+    for spacing, room, sample_count in _EXACT_SEARCH_LEVELS if space.edges is None else _SEARCH_LEVELS:
+        ends = np.concatenate([start[None], goals])
+        has_room = space.search_edges.check_edges(ends, np.zeros_like(ends), room)
+        if space.is_time_over or not (has_room[0] and has_room[1:].any()):
+            continue
+        seed = int(rng.integers(1 << 62))
+        connection = search.search(start, goals, seed, max_rounds=sample_count, spacing=spacing, room=room)
+        if connection is None:
+            continue
+        q, goal = connection
+        # The trees may meet a full revolution apart from the goal that was given.
+        q = _replace_ends(space, q, start, q[-1] + space.shortest_difference(goals[goal], q[-1]))
+        if space.are_segments_valid(q[:-1], q[1:]).all():
+            return q, goal
+    return None
+
+
+def _shorten_compiled(search: RouteSearch, space: FreeSpace, q: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Return a shorter route between the ends of q (K, n), or ``q`` if none is proved."""
+    spacing, room, max_failures = _FINAL_SHORTENING
+    shorter = search.shorten(q, int(rng.integers(1 << 62)), max_failures=max_failures, spacing=spacing, room=room)
+    shorter = _replace_ends(space, shorter, q[0], q[-1])
+    return shorter if space.are_segments_valid(shorter[:-1], shorter[1:]).all() else q
+
+
+def _replace_ends(space: FreeSpace, q: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Return waypoints q (K, n) of single precision with exact ends, and exact values of the joints that do not move."""
+    exact = space.clip_to_limits(q)
+    exact[0], exact[-1] = first, last
+    return np.where(space.free, exact, first)
 
 
 class _RouteTree:

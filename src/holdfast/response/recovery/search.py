@@ -65,6 +65,7 @@ def recover(
     samples: int = 1000,
     starts: int = 256,
     tries: int = 4,
+    relax: bool = True,
     time_limit: float | None = None,
     tolerance: Tolerance | None = None,
     accelerations: AccelerationsLike | None = None,
@@ -106,6 +107,8 @@ def recover(
         samples: Number of these targets; 0: no estimate.
         starts: Random starts of the search for configurations.
         tries: Searches for a route where straight lines are blocked. After a quarter of them failed, a proof is tried first.
+        relax: Search a motion with relaxed rows if the whole goal or tool path cannot be met. False: the search ends with the
+            proof, or without a motion.
         time_limit: Time limit of the searches, s, without the estimate of the remaining workspace. With a limit, the same seed
             need not give the same result.
         tolerance: Allowed errors of each row of the goal or the tool path, m and rad. Infeasibility is then proved with these
@@ -193,15 +196,20 @@ def recover(
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
         timing_limits = None if max_accelerations is None else (max_accelerations, period)
         attempt = RecoveryAttempt(
-            recovery=request, search=PoseSearch(solver, space, length), search_count=tries, rng=rng, timing_limits=timing_limits
+            recovery=request,
+            search=PoseSearch(solver, space, length),
+            search_count=tries,
+            relaxes_rows=relax,
+            rng=rng,
+            timing_limits=timing_limits,
         )
         return attempt.run(standing, target, path)
 
     began = monotonic()
-    return _retry_with_exact_distances(run_attempt(clearance_model), run_attempt)
+    return _retry_with_exact_distances(run_attempt(clearance_model), run_attempt, relax)
 
 
-def _retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clearance], Recovery]) -> Recovery:
+def _retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clearance], Recovery], relax: bool) -> Recovery:
     """Return the recovery, or a better one from a second search with exact distances, as in narrow gaps.
 
     Exact distances change no proof about the start, the separation of start and goal, or the poses. So there is no second
@@ -210,8 +218,11 @@ def _retry_with_exact_distances(recovery: Recovery, search_again: Callable[[Clea
     Args:
         recovery: Result of the search with the conservative bound of the clearance.
         search_again: Function that repeats the search with another clearance.
+        relax: True if motions with relaxed rows are searched.
     """
-    is_proved = recovery.proof_kind in ("reach bound", "boxes", "a pose of the path") and recovery.relaxed is not None
+    is_proved = recovery.proof_kind in ("reach bound", "boxes", "a pose of the path") and (
+        recovery.relaxed is not None or not relax
+    )
     is_settled = is_proved or recovery.proof_kind in ("start", "disconnected")
     exact_clearance = (
         with_exact_distances(recovery.clearance, recovery.margin)

@@ -17,6 +17,8 @@ from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.exact.exact_clearance import ExactClearance
+from holdfast.response.recovery.compiled.edges import EdgeChecker, RouteSearch
 
 MetricName = Literal["travel", "time"]
 
@@ -93,6 +95,8 @@ class FreeSpace:
 
     Attributes:
         manifold: Manifold of these constraints; None if there are none.
+        edges: Compiled checks and proofs of edges; None if the clearance has meshes, scans, or exact distances.
+        search_edges: Compiled checks for the search of a route; with exact distances those of the bound of the clearance.
         closed_in: ``start`` or ``goal`` if the search from this end was exhausted; see :func:`find_route`.
     """
 
@@ -119,6 +123,14 @@ class FreeSpace:
         limits = np.where(free, self._lower, around[0]), np.where(free, self._upper, around[0])
         self.manifold = ConstraintManifold(arm, constraints, free, limits) if constraints else None
         self._lipschitz_bounds = None if self.clearance is None else self.clearance.lipschitz_bounds(self.low, self.high)
+        self.edges: EdgeChecker | None = None
+        self.search_edges: EdgeChecker | None = None
+        if self.clearance is not None and self._lipschitz_bounds is not None:
+            bound = self.clearance.bound if isinstance(self.clearance, ExactClearance) else self.clearance
+            if EdgeChecker.supports(bound):
+                self.search_edges = EdgeChecker(bound, margin, self._lipschitz_bounds)
+                self.edges = self.search_edges if bound is self.clearance else None
+        self._route_search: tuple[JointMetric, RouteSearch] | None = None
 
     def stop_after(self, seconds: float) -> None:
         """Set the time in seconds after which :attr:`is_time_over` is true."""
@@ -138,13 +150,17 @@ class FreeSpace:
         """Return (N,) True within the limits; locked joints are ignored."""
         return np.asarray((((q >= self._lower) & (q <= self._upper)) | ~self.free).all(axis=-1))
 
+    def clip_to_limits(self, q: FloatArray) -> FloatArray:
+        """Return configurations (N, n) with every joint that moves clipped to its limits."""
+        return np.where(self.free, np.clip(q, self._lower, self._upper), q)
+
     def are_valid(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where configurations (N, n) respect limits, constraints, and clearance."""
         is_valid = self.are_within_limits(q)
         if self.manifold is not None and is_valid.any():
             is_valid[is_valid] = self.manifold.is_satisfied(q[is_valid])
         if self.clearance is not None and is_valid.any():
-            is_valid[is_valid] = self._clearance_margins(q[is_valid]).min(axis=1) >= 0
+            is_valid[is_valid] = np.asarray(self.clearance.margin_left(q[is_valid])) >= self.margin
         return is_valid
 
     def are_segments_valid(self, a: FloatArray, b: FloatArray, deviations: FloatArray | None = None) -> BoolArray:
@@ -162,6 +178,14 @@ class FreeSpace:
                 a[is_valid], b[is_valid], None if deviations is None else deviations[is_valid]
             )
         if self.clearance is None or not is_valid.any():
+            return is_valid
+        if self.edges is not None:
+            is_valid[is_valid] = self.edges.prove_edges(
+                a[is_valid],
+                (b - a)[is_valid],
+                None if deviations is None else deviations[is_valid],
+                MIN_RESOLVED_MOTION_M,
+            )
             return is_valid
         assert self._lipschitz_bounds is not None
         max_changes = np.abs(b - a) @ self._lipschitz_bounds.T
@@ -191,6 +215,17 @@ class FreeSpace:
             start_fractions, end_fractions = np.concatenate([start_fractions, middle]), np.concatenate([middle, end_fractions])
             first_margins = np.concatenate([first_margins, middle_margins])
             last_margins = np.concatenate([middle_margins, last_margins])
+
+    def compiled_search(self, metric: JointMetric) -> RouteSearch | None:
+        """Return the compiled search for routes that are short in a metric; None with constraints or without its checks."""
+        if self.search_edges is None or self.manifold is not None:
+            return None
+        if self._route_search is None or self._route_search[0] is not metric:
+            is_unlimited = joint_space.is_unlimited(self.arm) & self.free
+            scale = np.where(self.free, metric.scale, 0.0)
+            search = RouteSearch(self.search_edges, self.low, self.high, scale, is_unlimited, metric.name == "time")
+            self._route_search = metric, search
+        return self._route_search[1]
 
     def extend_paths(
         self, metric: JointMetric, start: FloatArray, directions: FloatArray

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from holdfast.core.errors import HoldfastError
 from holdfast.core.typing import FloatArray
 from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.exact.engines import CONTACT_DISTANCE_M, is_library_installed
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.waypoints import FIRST_COLUMNS, check_waypoints, subdivide_path, time_or_length_column
 
@@ -131,14 +131,12 @@ def verify_waypoints(
         f"the tool is {violation}" for violation in (constraint.trouble(poses) for constraint in constraints) if violation
     ]
     exact_by = "" if clearance is None else "lower bounds of the distances"
-    if clearance is not None and clearance.pair_names:
-        try:
-            touching = int((~clearance.sign(subdivide_path(q))).sum())
-            exact_by = "the exact sign"
-            if touching:
-                faults.append(f"the arm collides at {touching} of {replay.looked_at} configurations, by the exact sign")
-        except HoldfastError:  # no library for it is installed
-            pass
+    if clearance is not None and clearance.pair_names and is_library_installed():
+        exact_by = "the exact sign"
+        may_touch = replay.least_clearance is None or replay.least_clearance < CONTACT_DISTANCE_M
+        touching = int((~clearance.sign(subdivide_path(q))).sum()) if may_touch else 0
+        if touching:
+            faults.append(f"the arm collides at {touching} of {replay.looked_at} configurations, by the exact sign")
     goal_miss = path_miss = None
     if goal_q is not None:
         joint_errors = q[-1] - goal_q

@@ -251,8 +251,10 @@ def _find_least_clearance(clearance: Clearance, q: FloatArray) -> tuple[float, f
     parts = [q[first : first + _CHUNK_ROWS] for first in range(0, len(q), _CHUNK_ROWS)]
     margins = np.concatenate([clearance.margin_left(part) for part in parts])
     pair_index = int(clearance.closest_pair(q[margins.argmin()]))
-    least_clearance = min(float(clearance(part).min()) for part in parts)
-    return least_clearance, float(margins.min()), clearance.pair_names[pair_index] if pair_index >= 0 else ""
+    least_margin = least_clearance = float(margins.min())
+    if clearance.margins.any():
+        least_clearance = min(float(clearance(part).min()) for part in parts)
+    return least_clearance, least_margin, clearance.pair_names[pair_index] if pair_index >= 0 else ""
 
 
 def subdivide_path(q: FloatArray) -> FloatArray:

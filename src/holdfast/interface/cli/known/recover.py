@@ -70,6 +70,7 @@ def command(
     samples: Annotated[int, typer.Option("--samples", min=0, help="Poses for the remaining workspace; 0 skips it.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for goal configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Number of route searches if straight lines are blocked.")] = 4,
+    relax: Annotated[bool, typer.Option("--relax/--no-relax", help="Search a motion with relaxed rows.")] = True,
     time_limit: Annotated[float | None, "Time limit of all searches in s. Default: none."] = None,
     tolerance: Annotated[str | None, "Allowed error of goal and path in infeasibility proofs: 1mm,0.5deg. Default: 0."] = None,
     accelerations: Annotated[
@@ -140,6 +141,7 @@ def command(
         samples=samples,
         starts=starts,
         tries=tries,
+        relax=relax,
         time_limit=time_limit,
         tolerance=None if tolerance is None else tuple(parse_quantities("--tolerance", tolerance)),  # type: ignore[arg-type]
         accelerations=max_accelerations,

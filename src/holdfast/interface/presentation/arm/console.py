@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.core.formatting import format_number
-from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Notice, Presentation, TableSpec
+from holdfast.interface.presentation.printing import TextTable, print_table
 from holdfast.model import arms
 from holdfast.model.arm.machine import DRY_FRICTION
 from holdfast.model.arm.model import Arm
@@ -61,15 +62,22 @@ def to_dict(arm: Arm) -> dict[str, Any]:
 
 def present(arm: Arm) -> Presentation:
     """Present the joints with their types, limits, and link masses."""
-    columns = [Header(key, key) for key in ("joint", "type", "lower", "upper")]
+    source = [f"Source: {arm.source}"] if arm.source else []
+    return Presentation(arm.name, f"{arm.title}: {arm.n} joints", lines=source, tables=[_tabulate_joints(arm, "Joints")])
+
+
+def _tabulate_joints(arm: Arm, title: str = "") -> TableSpec:
+    """Tabulate the joints with their types, limits, and link masses."""
     rows = []
-    for joint, link in zip(arm.joints, arm.links, strict=True):
+    for number, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True), 1):
         factor, unit = joint.display_unit
         limits = [f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)]
-        rows.append((joint.name, joint.type, *limits, "not given" if link is None else f"{format_number(link.mass, 4)} kg"))
-    table = TableSpec("Joints", [*columns, Header("link_mass", "link mass")], rows)
-    source = [f"Source: {arm.source}"] if arm.source else []
-    return Presentation(arm.name, f"{arm.title}: {arm.n} joints", lines=source, tables=[table])
+        speed = f"{format_number(joint.velocity, 4)} {joint.unit}/s" if np.isfinite(joint.velocity) else "not given"
+        effort_unit = "N" if joint.prismatic else "N m"
+        effort = f"{format_number(joint.effort, 4)} {effort_unit}" if np.isfinite(joint.effort) else "not given"
+        mass = "not given" if link is None else f"{format_number(link.mass, 4)} kg"
+        rows.append((number, joint.name, joint.type, *limits, speed, effort, mass))
+    return TableSpec(title, ["", "joint", "type", "lower", "upper", "speed", "effort", "link mass"], rows)
 
 
 def picture(arm: Arm, about: str) -> str:
@@ -98,25 +106,9 @@ def show(arm: Arm, out: Console) -> None:
     """Print the joints, the single points of failure for each task, and the problems found in the data of the arm."""
     from rich.markup import escape
 
-    from holdfast.interface.presentation.terminal import BandedTable
-
     source = f". Source: {escape(arm.source)}" if arm.source else ""
     out.print(f"[bold]{escape(arm.title)}[/]: {arm.n} joints{source}")
-    table = BandedTable("", "joint", "type", "lower", "upper", "speed", "effort", "link mass")
-    for index, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
-        factor, unit = joint.display_unit
-        table.add_row(
-            str(index + 1),
-            escape(joint.name),
-            joint.type,
-            *[f"{factor * limit:.4g} {unit}" if np.isfinite(limit) else "none" for limit in (joint.lower, joint.upper)],
-            f"{format_number(joint.velocity, 4)} {joint.unit}/s" if np.isfinite(joint.velocity) else "not given",
-            f"{format_number(joint.effort, 4)} {'N' if joint.prismatic else 'N m'}"
-            if np.isfinite(joint.effort)
-            else "not given",
-            f"{format_number(link.mass, 4)} kg" if link is not None else "not given",
-        )
-    out.print(table)
+    print_table(out, _tabulate_joints(arm).texts())
     out.print()
     structure_list = structures(arm)
     for structure in structure_list:
@@ -156,27 +148,14 @@ def list_library_arms() -> list[dict[str, Any]]:
 
 def show_library(out: Console) -> None:
     """Print the built-in arms as a table."""
-    from holdfast.interface.presentation.terminal import BandedTable
-
-    table = BandedTable("name", "joints", "description", "licence")
-    for entry in list_library_arms():
-        table.add_row(entry["name"], str(entry["joints"]), entry["summary"], entry["licence"])
-    out.print(table)
+    rows = [[entry["name"], str(entry["joints"]), entry["summary"], entry["licence"]] for entry in list_library_arms()]
+    print_table(out, TextTable(["name", "joints", "description", "licence"], rows))
 
 
 def list_limit_violations(arm: Arm, q: NDArray[np.float64], when: str = "") -> list[Notice]:
     """Return a notice with the joints that are outside their limits in a configuration (n,), if any."""
     names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
     return [Notice(f"Joints outside their limits{when}: {', '.join(names)}.")] if names else []
-
-
-def print_limit_violations(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:
-    """Print the joints that are outside their limits in a configuration (n,), if any."""
-    from rich.markup import escape
-
-    names = [joint.name for joint, position in zip(arm.joints, q, strict=True) if not joint.lower <= position <= joint.upper]
-    if names:
-        out.print(f"[yellow]Joints outside their limits{when}: {escape(', '.join(names))}.[/]", soft_wrap=True)
 
 
 def build_page(arm: Arm, q: ArrayLike | None = None, *, file: str | Path | None = None, **options: Any) -> Html:

@@ -252,10 +252,33 @@ def _read_boxes(region: Region | ArrayLike | None) -> list[FloatArray]:
         return []
     if not isinstance(region, Region):
         return [require_real_numbers(region, "region").reshape(2, 3)]
+    corners = find_box_corners(region)
+    return [] if corners is None else [corners]
+
+
+def find_box_corners(region: Region) -> FloatArray | None:
+    """Return the lowest and the highest corner (2, 3) of a box region, m; None for other regions."""
     if region.kind != "box":
-        return []
+        return None
     center, half_size = np.array(region.center[:3]), np.array(region.size[:3]) / 2
-    return [np.array([center - half_size, center + half_size])]
+    return np.array([center - half_size, center + half_size])
+
+
+def reach_center(arm: Arm, task: Task, region: Region, seed: int, restarts: int) -> FloatArray | None:
+    """Return a configuration (n,) at the centre of a box region; None if none is found or the region is no box."""
+    if region.kind != "box":
+        return None
+    from holdfast.kinematics.solvers.inverse_kinematics import solver  # takes long to import
+
+    poses = region.poses(np.array(region.center)[None])
+    solutions = solver(arm, task).solve(poses, np.random.SeedSequence(seed), restarts, 1e-6)
+    return solutions.q[0] if solutions.success[0] else None
+
+
+def find_middle_of_limits(arm: Arm) -> FloatArray:
+    """Return the configuration (n,) in the middle of the joint limits, which count as a quarter turn if there are none."""
+    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    return np.asarray((lower + np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)) / 2)
 
 
 def _flatten_pose(pose: FloatArray) -> list[float]:

@@ -26,13 +26,8 @@ MAX_MESH_TRIANGLES = 60_000  # triangles of one mesh; more take longer and do no
 def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPart], str]:
     """Build the meshes of an arm from the visual shapes of its file, or a stick model for links without shapes.
 
-    Args:
-        arm: Arm to draw.
-        size: Length of the stretched arm, m, to which the stick model is scaled.
-        meshes: Open the mesh files; see :func:`read_visual_parts`.
-
-    Returns:
-        The parts, and a note on missing meshes; the note is empty if none are missing.
+    Returns the parts, and a note on missing meshes, which is empty if none are missing. ``size`` is the length of the stretched
+    arm, m, to which the stick model is scaled; for ``meshes`` see :func:`read_visual_parts`.
     """
     sticks = build_stick_parts(arm, size)
     shapes, lacking = read_visual_parts(arm, meshes)
@@ -53,12 +48,8 @@ def build_body(arm: Arm, size: float, meshes: bool = True) -> tuple[list[MeshPar
 def read_visual_parts(arm: Arm, meshes: bool = True) -> tuple[list[MeshPart], list[Missing]]:
     """Read the visual shapes of the links of an arm, in the frames of its bodies.
 
-    Args:
-        arm: Arm whose file contains the shapes.
-        meshes: Open the mesh files. If False, all meshes count as missing, and only the file of the arm is opened.
-
-    Returns:
-        The shapes that were read, and the shapes that are missing or not readable.
+    Returns the shapes that were read, and the shapes that are missing or not readable. With ``meshes=False``, all meshes count
+    as missing, and only the file of the arm is opened.
     """
     try:
         pieces, missing = read_pieces(arm, "visual", open_files=meshes)

@@ -101,13 +101,7 @@ def build_studio_page(
 ) -> Html:
     """Build the page of an arm that asks the server of the studio, with further steps.
 
-    Args:
-        arm: Arm to show.
-        q: (n,) first configuration, rad and m.
-        task: Task of the arm.
-        studio: ``StudioData`` of ``page/src/arm_page/answers.ts``.
-        cell: Objects around the arm.
-        mesh_files: Open the mesh files that the arm's file names.
+    ``studio`` is ``StudioData`` of ``page/src/arm_page/answers.ts``. With ``mesh_files=False``, no mesh files are opened.
 
     Raises:
         HoldfastError: The arm cannot be shown.

@@ -22,12 +22,9 @@ from holdfast.model.arm.task import Task, default_path_task
 def print_page_kernels(arm: Arm, task: Task, laws: Sequence[str] = ("pseudoinverse", "failure-tolerant")) -> str:
     """Print the kernels of a page as a JavaScript expression.
 
-    Its value is a ``PrintedKernels`` of ``page/src/arm_page/data.ts``, which states the inputs and outputs of each kernel.
-
-    Args:
-        arm: The arm.
-        task: Task of the page, for the null space and the inverse kinematics.
-        laws: Labels of control laws, which move the tool point of the arm; none for an arm with too few joints for that.
+    Its value is a ``PrintedKernels`` of ``page/src/arm_page/data.ts``, which states the inputs and outputs of each kernel. The
+    null space and the inverse kinematics are those of ``task``. The control laws move the tool point of the arm; there are none
+    for an arm with too few joints for that.
     """
     q = kinematics.joint_symbols(arm)
     lines: list[str] = []

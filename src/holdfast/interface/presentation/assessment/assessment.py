@@ -341,10 +341,4 @@ def _choose_thresholds(result: Assessment, requested: Thresholds) -> Sequence[fl
 def _collect_probability(result: Assessment, threshold: float, optimised: bool = False) -> dict[str, Any]:
     key = "at_least" if result.index.better == "larger" else "at_most"
     probability = result.interval(optimised=optimised, **{key: threshold})  # type: ignore[arg-type]
-    return {
-        key: threshold,
-        "value": probability.value,
-        "low": probability.low,
-        "high": probability.high,
-        "confidence": probability.confidence,
-    }
+    return {key: threshold, **asdict(probability)}

@@ -20,7 +20,15 @@ from holdfast.interface.presentation.assessment.tables import (
 )
 from holdfast.interface.presentation.collision.shape import describe_cell
 from holdfast.interface.presentation.commands import build_command_line, build_region_file_blocks, build_shape_file_blocks
-from holdfast.interface.presentation.presentation import FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import (
+    Column,
+    FigureSpec,
+    Header,
+    Notice,
+    Presentation,
+    TableSpec,
+    make_headers,
+)
 from holdfast.interface.report.page import Block, Code, Text
 from holdfast.model.arm.model import Arm
 from holdfast.model.arms.tool import format_tool_pose
@@ -133,32 +141,27 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
     optimised = any(run.optimised is not None for run in runs)
     survival = any(run.survivors is not None for run in runs)
     prefixes = ("", "optimised_")[: 1 + optimised]
-    name = Header("name", "candidate")
     condition = f"P({'≥' if first.larger_is_better else '≤'} {format_as_given(comparison.threshold)})"
-    columns = [
-        name,
-        Header("task", "task"),
-        Header("redundancy", "redundancy"),
-        Header("reached", "reached, 95 % interval", style="percent"),
-        *[Header(f"{p}probability", f"{p and 'optimised '}{condition}, 95 % interval", style="percent") for p in prefixes],
-        *[Header(f"{p}median", f"{p and 'optimised '}median") for p in prefixes],
-        *[Header("expected_survival", "reached after a lock", style="percent")] * survival,
+    probabilities = [f"{p and 'optimised '}{condition}, 95 % interval" for p in prefixes]
+    columns: list[Column] = [
+        *("candidate", "task", "redundancy"),
+        *make_headers("reached, 95 % interval", *probabilities, style="percent"),
+        *[f"{p and 'optimised '}median" for p in prefixes],
+        *[Header("reached after a lock", style="percent")] * survival,
     ]
+    keys = ["name", "task", "redundancy", "reached", *[f"{p}{key}" for key in ("probability", "median") for p in prefixes]]
+    keys += ["expected_survival"] * survival
     title = (
         f"P: fraction of the {format_count(first.distribution.samples, first.noun)} with {first.condition}. Medians: over "
         f"the reached {first.noun}s. Redundancy: joints minus task dimensions"
     )
     title += ". Optimised: at the best configurations" if optimised else ""
     title += ". Reached after a lock: fraction of the poses, if every joint is equally likely to fail" if survival else ""
-    yield TableSpec(title, columns, [[_read_cell(row, column.key) for column in columns] for row in table])
+    yield TableSpec(title, columns, [[_read_cell(row, key) for key in keys] for row in table])
     yield TableSpec(
         "Worst failure: most often the worst one, with the fraction of the reached poses. Single point of failure: a joint "
         "whose lock makes the task singular in every configuration",
-        [
-            name,
-            *[Header(f"{p}worst", f"{p and 'optimised: '}worst failure") for p in prefixes],
-            Header("single_points_of_failure", "single point of failure"),
-        ],
+        ["candidate", *[f"{p and 'optimised: '}worst failure" for p in prefixes], "single point of failure"],
         [
             [row["name"], *[_format_worst_failure(row, prefix) for prefix in prefixes], _list_single_points(row)]
             for row in table
@@ -175,12 +178,12 @@ def _build_tables(comparison: Comparison, first: ThresholdAnswer) -> Iterator[Ta
         ]
         for row, run in zip(table, runs, strict=True)
     ]
-    columns = [name, Header("arm", "arm"), Header("tool", "tool"), Header("bound", "bound of the index", digits=3)]
-    columns += [Header(f"{p}gap", f"{p and 'optimised: '}gap of the median", digits=3) for p in prefixes]
+    gaps = [f"{p and 'optimised: '}gap of the median" for p in prefixes]
+    columns = ["candidate", "arm", "tool", *make_headers("bound of the index", *gaps, digits=3), "source", "fingerprint"]
     yield TableSpec(
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the frame of the last link. Bound: no configuration can exceed it. "
         "Gap: bound (or best known value) minus the median of the reached poses",
-        [*columns, Header("source", "source"), Header("fingerprint", "fingerprint")],
+        columns,
         detail_rows,
         on_console=False,
     )
@@ -224,9 +227,9 @@ def _tabulate_upgrades(comparison: Comparison, first: ThresholdAnswer, optimised
             cells += (list_gain_cells(after[upgrade.joint]) if after else ["–", "–"]) if optimised else []
             rows.append(cells)
     missing = [name for name, run in zip(comparison.names, comparison.assessments, strict=True) if not run.has_rows]
-    columns = [Header("name", "candidate"), Header("joint", "protected joint"), Header("before", "P without", digits=3)]
+    columns: list[Column] = ["candidate", "protected joint", Header("P without", digits=3)]
     for label in ("P with protection", "after optimisation")[: 1 + optimised]:
-        columns += [Header("after", label, digits=3, aligned=False), Header("gain", "gain, 95 % interval")]
+        columns += [Header(label, digits=3, aligned=False), "gain, 95 % interval"]
     title = (
         f"P({first.condition}) if one joint never failed: the {_MAX_UPGRADES} joints of each candidate that gain most from a "
         f"redundant motor or brake; the report of each candidate lists all joints"

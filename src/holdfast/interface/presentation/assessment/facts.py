@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from holdfast.core.caching import cached_property
 from holdfast.core.formatting import format_as_given, format_half_width, format_number
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
+from holdfast.interface.presentation.arm.view import find_box_corners, find_middle_of_limits, reach_center
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
 from holdfast.interface.report.views import SIDE_VIEW, View, choose_side_and_top_views
-from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.studies.assessment.assessment import ZERO_INDEX
 
 _MAX_DOTS = 20_000
@@ -45,58 +47,34 @@ class AssessmentFacts(ThresholdAnswer):
                 else f"which has the median index, {format_number(float(poses.value[index]))}"
             )
             return poses.q[index], f"at {self.noun} {poses.number[index] + 1:,}, {description}"
-        center = np.array(assessment.region.center)
         if assessment.region.kind == "joints":
-            return center, "at the centre of the region"
-        if self.distribution.reached and assessment.region.kind == "box":
-            solutions = solver(assessment.arm, self.index.task).solve(
-                assessment.region.poses(center[None]), np.random.SeedSequence(assessment.seed), assessment.restarts, 1e-6
-            )
-            if solutions.success[0]:
-                return solutions.q[0], "at the centre of the region"
-        lower = np.where(np.isfinite(assessment.arm.lower), assessment.arm.lower, -np.pi / 2)
-        upper = np.where(np.isfinite(assessment.arm.upper), assessment.arm.upper, np.pi / 2)
-        return (lower + upper) / 2, "in the middle of its joint limits"
+            return np.array(assessment.region.center), "at the centre of the region"
+        if self.distribution.reached:
+            q = reach_center(assessment.arm, self.index.task, assessment.region, assessment.seed, assessment.restarts)
+            if q is not None:
+                return q, "at the centre of the region"
+        return find_middle_of_limits(assessment.arm), "in the middle of its joint limits"
 
     @cached_property
     def scene(self) -> tuple[report.Scene, int]:
         """Scene of the views, and the number of poses in it."""
         assessment, poses = self.assessment, self.poses
         joint_positions = assessment.arm.frames(self.drawn_configuration[0])[:, :3, 3]
-        no_points = np.zeros((0, 3))
-        points, values, missing, drawn_count = no_points, np.zeros(0), no_points, 0
+        dots, drawn_count = report.Scene(), 0
         if poses is not None:
             chosen = np.arange(len(poses.value))
             if len(chosen) > _MAX_DOTS:
                 chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MAX_DOTS, replace=False))
             is_reached = poses.reached[chosen]
-            points = poses.position[chosen[is_reached]]
-            values = poses.value[chosen[is_reached]]
-            missing = poses.position[chosen[~is_reached]]
-            drawn_count = len(chosen)
-        box = None
-        if assessment.region.kind == "box":
-            center, size = np.array(assessment.region.center[:3]), np.array(assessment.region.size[:3])
-            box = np.array([center - size / 2, center + size / 2])
-        return report.Scene(
-            points,
-            values,
-            missing,
-            chain=joint_positions,
-            nodes=joint_positions[1:-1],
-            square=assessment.arm.prismatic,
-            box=box,
-        ), drawn_count
+            reached, drawn_count = chosen[is_reached], len(chosen)
+            dots = report.Scene(poses.position[reached], poses.value[reached], poses.position[chosen[~is_reached]])
+        box = find_box_corners(assessment.region)
+        return replace(dots, chain=joint_positions, square=assessment.arm.prismatic, box=box), drawn_count
 
     @cached_property
     def views(self) -> list[View]:
         """Side and top view; only one of the two if all points lie in its plane."""
         return choose_side_and_top_views(self.scene[0].extent) or [SIDE_VIEW]
-
-    @property
-    def main_view(self) -> View:
-        """The first view."""
-        return self.views[0]
 
     @cached_property
     def is_logarithmic(self) -> bool:
@@ -183,4 +161,4 @@ class AssessmentFacts(ThresholdAnswer):
         fraction = np.diff(self.assessment.cdf(edges, reachable_only=True))
         width = np.diff(np.log10(edges)) if self.is_logarithmic else np.diff(edges)
         density_unit = "per decade" if self.is_logarithmic else self.unit_suffix and f"per{self.unit_suffix}"
-        return report.Bin(edges, fraction / width, "", ylabel=f"probability density {density_unit}".strip())
+        return report.Bin(edges, fraction / width, f"probability density {density_unit}".strip())

@@ -78,11 +78,11 @@ def _describe_single_points(facts: AssessmentFacts) -> Callout:
 
 def draw_overview(facts: AssessmentFacts) -> report.Figure:
     """Draw the arm and the region on the left and the distribution on the right; 1200 x 520 px at 100 dpi."""
-    view = facts.main_view
+    view = facts.views[0]
     with report.styled_figure(12, 5.2) as figure:
         scene_axes, cdf_axes = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
-        spans, _ = report.scenes.fit_view_spans(scene, [view], 5.0, 4.1, 4.1)
+        spans, _ = report.scenes.fit_view_spans(scene.extent, [view], 5.0, 4.1, 4.1)
         report.scenes.draw_view(
             scene_axes, scene, view, facts.color_scale, report.scenes.choose_dot_area(scene, [view], 5.0 / spans[0]), spans, 5.0
         )

@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_as_given, format_decimals
 from holdfast.interface.presentation.assessment.answer import ThresholdAnswer
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, TableSpec
 from holdfast.studies.assessment.assessment import Assessment
 from holdfast.studies.assessment.comparison import Comparison
 from holdfast.studies.assessment.upgrade import Upgrade
@@ -51,15 +51,15 @@ def tabulate_quantiles(answer: ThresholdAnswer) -> TableSpec | None:
         for label, sampled, reachable_only, mean in samples
     ]
     finite = " of finite values" if distribution.infinite else ""
-    columns = [Header("sample", f"{answer.index.name} over")]
-    columns += [Header(f"{level:g}", "median" if level == 0.5 else f"{100 * level:g} %") for level in _QUANTILE_LEVELS]
-    return TableSpec("", [*columns, Header("mean", f"mean{finite}"), Header("best", "best")], rows)
+    columns = [f"{answer.index.name} over"]
+    columns += ["median" if level == 0.5 else f"{100 * level:g} %" for level in _QUANTILE_LEVELS]
+    return TableSpec("", [*columns, f"mean{finite}", "best"], rows)
 
 
 def _tabulate_thresholds(answer: ThresholdAnswer, thresholds: Sequence[float]) -> TableSpec:
     """Tabulate the probabilities of meeting thresholds."""
     samples = [(False, "probability"), (True, "optimised")][: 1 + (answer.assessment.optimised is not None)]
-    columns = [Header("threshold", answer.index.name), *[Header(label, f"{label}, 95 % interval") for _, label in samples]]
+    columns = [answer.index.name, *[f"{label}, 95 % interval" for _, label in samples]]
     relation = "at least" if answer.larger_is_better else "at most"
     rows = [
         [f"{relation} {value:g}", *[answer.interval(optimised, threshold=value) for optimised, _ in samples]]
@@ -78,7 +78,8 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
     if len(chosen) > _MAX_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MAX_ROWS])
     tail_level = 0.05 if answer.larger_is_better else 0.95
-    columns, values_by_column = [Header("failure", "locked")], [[labels[failure] for failure in chosen]]
+    columns: list[Column] = ["locked"]
+    values_by_column = [[labels[failure] for failure in chosen]]
     samples = zip(("", "best: "), answer.samples, (counts, assessment.optimised_worst_counts), strict=False)
     for prefix, (_, _, poses), worst_counts in samples:
         assert worst_counts is not None
@@ -86,17 +87,17 @@ def tabulate_failures(answer: ThresholdAnswer) -> TableSpec | None:
             values = poses.by_failure[poses.reached]
             weights = None if poses.weight is None else poses.weight[poses.reached]
             quantiles = np.quantile(values, [0.5, tail_level], axis=0, method="inverted_cdf", weights=weights)
-            columns += [Header("median", f"{prefix}median"), Header("tail", f"{prefix}{100 * tail_level:.0f} % quantile")]
+            columns += [f"{prefix}median", f"{prefix}{100 * tail_level:.0f} % quantile"]
             values_by_column += [*quantiles[:, chosen].tolist()]
             if answer.has_threshold:
                 met = values >= answer.threshold if answer.larger_is_better else values <= answer.threshold
                 fractions = np.average(met, axis=0, weights=weights)
                 relation = "≥" if answer.larger_is_better else "≤"
                 label = f"{prefix}P({relation} {format_as_given(answer.threshold)})"
-                columns.append(Header("probability", label, style="percent"))
+                columns.append(Header(label, style="percent"))
                 values_by_column.append(fractions[chosen].tolist())
         if worst_counts.sum():
-            columns.append(Header("worst_fraction", f"{prefix}is the worst", style="percent"))
+            columns.append(Header(f"{prefix}is the worst", style="percent"))
             values_by_column.append((worst_counts[chosen] / worst_counts.sum()).tolist())
     title = f"{answer.index.name} after each failure, over {answer.distribution.reached:,} {answer.reached_noun}"
     title += ", at the configurations found; best: at the best configurations" if len(answer.samples) > 1 else ""
@@ -114,7 +115,7 @@ def rank_optimised_upgrades(assessment: Assessment, threshold: float) -> list[Up
         return []
 
 
-def tabulate_upgrades(answer: ThresholdAnswer, max_rows: int = _MAX_ROWS) -> TableSpec | None:
+def tabulate_upgrades(answer: ThresholdAnswer) -> TableSpec | None:
     """Tabulate the gain from protecting each joint by a redundant motor or brake."""
     if not (answer.distribution.reached and answer.has_threshold and answer.assessment.has_rows):
         return None
@@ -123,19 +124,19 @@ def tabulate_upgrades(answer: ThresholdAnswer, max_rows: int = _MAX_ROWS) -> Tab
     if not ranked:
         return None
     condition = f"P({answer.condition})"
-    columns = [Header("joint", "protected joint"), *_make_gain_columns(condition)]
+    columns = ["protected joint", *_make_gain_columns(condition)]
     columns += _make_gain_columns("after optimisation") if optimised else []
     title = f"Gain if one joint never failed; without protection {condition} is {ranked[0].before:.3f}"
     title += f", and {next(iter(optimised.values())).before:.3f} after optimisation" if optimised else ""
     rows: list[list[Any]] = []
-    for upgrade in ranked[:max_rows]:
+    for upgrade in ranked[:_MAX_ROWS]:
         cells = [f"{answer.assessment.arm.joint_index(upgrade.joint) + 1}  {upgrade.joint}", *list_gain_cells(upgrade)]
         rows.append(cells + (list_gain_cells(optimised[upgrade.joint]) if optimised else []))
     return TableSpec(title, columns, rows, on_page=False)
 
 
-def _make_gain_columns(label: str) -> list[Header]:
-    return [Header("after", label, digits=3), Header("gain", "gain, 95 % interval")]
+def _make_gain_columns(label: str) -> list[Column]:
+    return [Header(label, digits=3), "gain, 95 % interval"]
 
 
 def list_gain_cells(upgrade: Upgrade) -> list[Any]:
@@ -150,8 +151,8 @@ def tabulate_survival(answer: ThresholdAnswer) -> TableSpec | None:
         return None
     locks = answer.assessment.locks
     rows = [[name, describe_lock(answer, name, locks[name]), share] for name, share in answer.assessment.survival().items()]
-    columns = [Header("joint", "locked joint"), Header("locked_at", "position of the lock")]
-    return TableSpec("", [*columns, Header("survival", "fraction of the poses still reached")], rows, on_page=False)
+    columns = ["locked joint", "position of the lock"]
+    return TableSpec("", [*columns, "fraction of the poses still reached"], rows, on_page=False)
 
 
 def describe_lock(answer: ThresholdAnswer, joint: str, position: float | None) -> str:

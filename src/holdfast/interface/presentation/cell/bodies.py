@@ -22,9 +22,7 @@ _PLATE_THICKNESS_FRACTION = 0.02  # thickness of the plate that represents a hal
 def mesh_solid(solid: Solid, size: float) -> tuple[FloatArray, Faces]:
     """Return the vertices (V, 3), m, in the frame of the object, and the triangles (F, 3) of the mesh that represents it.
 
-    Args:
-        solid: Object to draw.
-        size: Half width of the plate that represents a half space, m.
+    A half space is represented by a plate, of which ``size`` is the half width, m.
 
     Raises:
         InputError: The kind of object cannot be drawn.
@@ -61,12 +59,9 @@ def _mesh_point_cloud(cloud: Points) -> tuple[FloatArray, Faces]:
 
 
 def build_cell_parts(cell: Cell, base: ArrayLike, size: float) -> list[MeshPart]:
-    """Build the objects of a cell as parts that are fixed to the base of an arm.
+    """Build the objects of a cell as parts that are fixed to the base of an arm, whose pose in the world is ``base`` (4, 4).
 
-    Args:
-        cell: Objects around the arm.
-        base: (4, 4) pose of the base of the arm in the world.
-        size: Half width of the plate that represents a half space, m.
+    ``size`` is the half width of the plate that represents a half space, m.
     """
     world_to_base = np.linalg.inv(np.asarray(base, dtype=np.float64))
     mesh_parts = []

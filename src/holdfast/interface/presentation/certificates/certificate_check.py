@@ -7,7 +7,7 @@ from typing import Any
 from holdfast.certificates.checks import CertificateCheck
 from holdfast.certificates.verifier import format_percent, qualify_claim
 from holdfast.interface.presentation.certificates.verification import build_fraction_entry
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Presentation, TableSpec
 
 
 def to_dict(check: CertificateCheck) -> dict[str, Any]:
@@ -24,10 +24,7 @@ def present(check: CertificateCheck) -> Presentation:
     """Present the verified fraction of the claim, the summary of the verifier, and each part."""
     sampled = check.accepted + check.rejected < check.leaves
     proved = check.tolerant if check.parts else check.proved_fraction
-    columns = [
-        Header("lock", "lock of"),
-        *(Header(name, name) for name in ("proved", "refuted", "undecided", "accepted", "rejected")),
-    ]
+    columns = ["lock of", "proved", "refuted", "undecided", "accepted", "rejected"]
     rows = [
         [
             _name_lock(part),

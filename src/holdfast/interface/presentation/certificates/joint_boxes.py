@@ -27,7 +27,7 @@ from holdfast.interface.presentation.certificates.verification import (
     find_proved_fraction,
     present_proof,
 )
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
 from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, FAINT, INK, ORANGE, SKY
 
 Found = Refutation | ManipulabilityBound
@@ -215,12 +215,7 @@ class LeafBoxes:
         """Tabulate the smallest boxes, or the largest of the undecided ones."""
         order = np.lexsort((np.where(self.undecided, self.halvings, -self.halvings), ~self.undecided))[:_HARDEST_ROWS]
         units = "deg and m" if not self.is_angle.all() else "deg"
-        columns = [
-            Header("halvings", "bisections"),
-            Header("middle", f"middle, {units}"),
-            Header("half_widths", f"half-widths, {units}"),
-            Header("state", "proved or undecided"),
-        ]
+        columns = ["bisections", f"middle, {units}", f"half-widths, {units}", "proved or undecided"]
         return TableSpec(
             "Smallest boxes, or largest undecided boxes", columns, [self.describe_box(box_index) for box_index in order]
         )

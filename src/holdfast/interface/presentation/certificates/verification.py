@@ -19,7 +19,7 @@ from holdfast.certificates.tool_paths.proof import LockedPath, PathProof
 from holdfast.certificates.verifier import format_percent, qualify_claim
 from holdfast.interface import report
 from holdfast.interface.presentation.certificates import working_ranges
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.palette import EMPTY_COLOR, INK
 
 SCOPE_NOTE = "collisions, torques, speed. Assumptions: links are rigid, the geometry is that of the file, locks do not slip"
@@ -76,20 +76,9 @@ def present_proof(
 ) -> Presentation:
     """Present a proof: the proved and the undecided fraction of the claim, and whether it is verified.
 
-    Args:
-        proof: The proof.
-        title: Title of the report.
-        answer: Sentence with the proved and the undecided fraction; a sentence on the verification is appended.
-        fraction_phrase: Phrase after the proved fraction that names the whole.
-        cell_phrase: Phrase that describes the cells.
-        facts: Further facts.
-        list_tables: Function that builds further tables.
-        gaps: Undecided intervals of each part, for the table of parts.
-        figures: Figures by name.
-        method: Entries on how the claim is proved, and on its limits.
-        check: Result of the verifier, or None; its numbers replace those of the prover.
-        file: File of the certificate.
-        ranges: Working ranges found by sampling, or None.
+    The phrases follow the proved fraction and the number of cells; ``gaps`` are the undecided intervals of each part. The
+    numbers of ``check``, the result of the verifier, replace those of the prover. ``file`` is the file of the certificate, and
+    ``ranges`` are working ranges found by sampling.
     """
     document, is_refuted = _certificate(proof), isinstance(proof, Refutation | ManipulabilityBound) and proof.refuted
     whole = find_proved_fraction(proof, check)
@@ -144,14 +133,13 @@ def _tabulate_parts(proof: Found, check: CertificateCheck | None, gaps: Sequence
     """Tabulate fractions, cells, search time and verification of each part."""
     parts = proof.parts if isinstance(proof, TolerantProof | PathProof) else (proof,)
     checks = [None] * len(parts) if check is None else check.parts or (check,)
-    columns = [
-        Header("lock", "lock of"),
-        *(Header(name, name) for name in ("proved", "refuted", "undecided")),
-        *[Header("gaps", "undecided between knots")] * bool(gaps),
-        Header("cells", "cells"),
-        Header("search", "search, s", digits=3),
-        Header("verifier", "verified by"),
-        Header("check", "check, s", digits=3),
+    columns: list[Column] = [
+        *("lock of", "proved", "refuted", "undecided"),
+        *["undecided between knots"] * bool(gaps),
+        "cells",
+        Header("search, s", digits=3),
+        "verified by",
+        Header("check, s", digits=3),
     ]
     rows = []
     for index, (part, checked) in enumerate(zip(parts, checks, strict=True)):

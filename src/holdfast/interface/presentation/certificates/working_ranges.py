@@ -6,7 +6,7 @@ from typing import Any
 
 from holdfast.certificates.suggestions.working_ranges import WorkingRanges
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, Presentation, TableSpec
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
 
 
@@ -54,12 +54,12 @@ def present(working_ranges: WorkingRanges) -> Presentation:
             f"Not found: with the best working ranges, the arm reaches {working_ranges.passed} of {targets} sampled targets "
             f"({format_percent(working_ranges.passed / targets)}) whichever joint locks; {reason}."
         )
-    columns = [
-        Header("joint", "joint"),
-        Header("range", "working range"),
-        Header("width", "width", [joint.display_unit[1] for joint in arm.joints], aligned=False),
-        Header("relative_width", "fraction of its limits", style="percent"),
-        Header("lost", "targets lost"),
+    columns: list[Column] = [
+        "joint",
+        "working range",
+        Header("width", [joint.display_unit[1] for joint in arm.joints], aligned=False),
+        Header("fraction of its limits", style="percent"),
+        "targets lost",
     ]
     rows = [
         [

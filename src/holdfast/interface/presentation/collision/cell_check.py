@@ -9,7 +9,7 @@ import numpy as np
 from markupsafe import Markup
 
 from holdfast.core.formatting import format_count, format_number, format_percent
-from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, Header, Notice, Presentation, TableSpec
 from holdfast.model.collision.cell_check import CellCheck, CheckedObject
 
 
@@ -59,12 +59,12 @@ def present(check: CellCheck) -> Presentation:
             f"The distances are lower bounds, computed from {format_count(check.spheres, 'sphere')} that cover the moving "
             f"links of '{check.arm}' ({check.shape}) and extend up to {1000 * check.reach:.3g} mm beyond its capsules."
         )
-    columns = [
-        Header("object", "object"),
-        Header("margin", "margin, m", aligned=False),
-        Header("width", "grid, mm"),
-        Header("excess", "largest distance error, mm"),
-        *([Header("touching", "touched in", style="percent")] if check.arm else []),
+    columns: list[Column] = [
+        "object",
+        Header("margin, m", aligned=False),
+        "grid, mm",
+        "largest distance error, mm",
+        *([Header("touched in", style="percent")] if check.arm else []),
     ]
     return Presentation(
         "Check of a cell",

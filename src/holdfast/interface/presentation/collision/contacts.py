@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import format_number
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, TableSpec
 from holdfast.model.collision.contacts import Contact
 
 
@@ -34,12 +34,12 @@ def _contact_entry(contact: Contact, unit: str) -> dict[str, Any]:
 
 def tabulate_contacts(contacts: Sequence[Contact], unit: str = "s") -> TableSpec:
     """Tabulate the first contact time of each pair, by the bound and, where requested, exactly, and its depth."""
-    columns = [
-        Header("link", "link"),
-        Header("object", "touches"),
-        Header("time", f"first contact, {unit}", aligned=False),
-        Header("exact_time", f"exact time, {unit}"),
-        Header("depth_mm", "depth at most, mm", aligned=False),
+    columns: list[Column] = [
+        "link",
+        "touches",
+        Header(f"first contact, {unit}", aligned=False),
+        f"exact time, {unit}",
+        Header("depth at most, mm", aligned=False),
     ]
     rows: list[tuple[Any, ...]] = [
         (contact.link, contact.object, contact.time, _format_exact_time(contact), 1000 * contact.depth) for contact in contacts

@@ -23,23 +23,18 @@ def summarize_shape(clearance: Clearance, margin: float) -> dict[str, Any]:
         "margin_m": margin,
         "pairs_checked": clearance.pair_names,
         "pairs_not_checked": {pair.name: pair.reason for pair in clearance.ignored},
-        "cell": None if clearance.cell is None else summarize_cell(clearance.cell) | _exact_entries(clearance),
+        "cell": _summarize_cell(clearance),
     }
 
 
-def _exact_entries(clearance: Clearance) -> dict[str, Any]:
-    return {"distances": "exact", "by": clearance.exact_by} if isinstance(clearance, ExactClearance) else {}
-
-
-def summarize_cell(cell: Cell) -> dict[str, Any]:
-    """Return the cell around the arm as JSON data; its distances are lower bounds."""
-    return {
-        "name": cell.name,
-        "sha256": cell.digest,
-        "objects": [solid.name for solid in cell],
-        "margin_m": cell.margin,
-        "distances": "bound",
-    }
+def _summarize_cell(clearance: Clearance) -> dict[str, Any] | None:
+    """Return the cell around the arm as JSON data, with the kind of its distances; None without a cell."""
+    cell = clearance.cell
+    if cell is None:
+        return None
+    entries = {"name": cell.name, "sha256": cell.digest, "objects": [solid.name for solid in cell], "margin_m": cell.margin}
+    is_exact = isinstance(clearance, ExactClearance)
+    return entries | ({"distances": "exact", "by": clearance.exact_by} if is_exact else {"distances": "bound"})
 
 
 def describe_cell(cell: Cell, distances: str = "distances from it are lower bounds") -> str:

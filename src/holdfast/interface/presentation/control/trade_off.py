@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.control.laws.trade_offs import QUANTILE_LEVELS, TradeOff
 from holdfast.core.formatting import format_percent
 from holdfast.interface import report
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec, make_headers
 from holdfast.interface.report.palette import ORANGE
 
 _NEGLIGIBLE_GAIN = 0.005  # relative gain that counts as none
@@ -68,13 +68,8 @@ def present(curve: TradeOff) -> Presentation:
             Fact("", largest_gain, phrase=f"largest reduction found, for {curve.allowed[best_index]:.2g}", style="percent"),
         ]
     low_quantile, high_quantile = curve.quantiles(levels=(0.05, 0.95))
-    columns = [
-        Header("pre_failure_error", "allowed error", digits=2),
-        Header("gain", "peak error after a lock (pseudoinverse: 1)", digits=3),
-        Header("gain_interval", "95 % interval", digits=3),
-        Header("gain_range", "5 to 95 % of the samples", digits=3),
-        Header("healthy_error", "error of the healthy arm", digits=3),
-    ]
+    labels = ("peak error after a lock (pseudoinverse: 1)", "95 % interval", "5 to 95 % of the samples")
+    columns: list[Column] = [Header("allowed error", digits=2), *make_headers(*labels, "error of the healthy arm", digits=3)]
     intervals, ranges = zip(lower, upper, strict=True), zip(low_quantile, high_quantile, strict=True)
     rows = list(zip(curve.allowed, median_gain, intervals, ranges, healthy_error, strict=True))
     return Presentation(

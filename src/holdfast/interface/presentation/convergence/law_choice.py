@@ -11,7 +11,7 @@ from holdfast.interface import report
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence import maps
 from holdfast.interface.presentation.convergence.shares import format_points, rank_successes
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 
 _MAX_TITLE_LENGTH = 24  # characters of a title
 save = partial(renderers.save, dpi=130)
@@ -52,10 +52,10 @@ def present(choice: LawChoice) -> Presentation:
             f"{failures}; {comparison}."
         )
     facts = rank_successes(shares)
-    columns = [
-        Header("law", "law"),
-        Header("converged", "converges after a lock", style="percent"),
-        Header("difference", "difference from the best, percentage points"),
+    columns: list[Column] = [
+        "law",
+        Header("converges after a lock", style="percent"),
+        "difference from the best, percentage points",
     ]
     rows: list[list[Any]] = [
         [name, shares[name], "" if name == best_law else format_points(choice.difference(name, best_law))] for name in ranking
@@ -66,7 +66,7 @@ def present(choice: LawChoice) -> Presentation:
         answer += f" With {best_law}, {touched_text} of the motions touch something on the way."
         phrase = f"of the motions with {best_law}, at most, touch something; a real arm would stop there"
         facts.append(Fact("", touched[0], phrase=phrase, style="percent"))
-        columns.append(Header("touched", "touches something, at most", style="percent"))
+        columns.append(Header("touches something, at most", style="percent"))
         rows = [[*row, value] for row, value in zip(rows, touched, strict=True)]
     places = int(first_map.has_configuration.any(axis=1).sum())
     caption = "One bar for each joint that is locked from the start, and one for no lock. Lines are 95 % intervals."

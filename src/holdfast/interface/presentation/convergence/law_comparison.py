@@ -24,7 +24,6 @@ from holdfast.interface.presentation.convergence.law_tables import (
     build_detail_table,
     build_gain_table,
     build_outcome_table,
-    get_time_unit,
     tabulate_gains,
     tabulate_healthy_costs,
     tabulate_runs,
@@ -326,5 +325,5 @@ def _draw_healthy_costs(comparison: LawComparison) -> report.Figure:
     spreads = []
     for measure, label, factor in _COST_MEASURES:
         quantiles = factor * np.array([comparison.cost(name, measure) for name in comparison.names])  # type: ignore[arg-type]
-        spreads.append(report.Spread(label.format(unit=get_time_unit(comparison)), quantiles))
+        spreads.append(report.Spread(label.format(unit=comparison.runs[0].unit), quantiles))
     return report.spread_figure(comparison.names, spreads)

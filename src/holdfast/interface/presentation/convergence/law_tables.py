@@ -11,7 +11,7 @@ from holdfast.control.convergence.law_comparison import ANY_JOINT, LawComparison
 from holdfast.control.simulation.errors import error_kinds
 from holdfast.control.simulation.runs import RunOutcome
 from holdfast.core.formatting import format_count, format_percent
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, TableSpec, make_headers
 
 OUTCOME_NAMES = [outcome.name.lower() for outcome in RunOutcome]
 _RUN_COLUMNS = ("path_length", "path_ratio", "excursion", "time")
@@ -20,18 +20,18 @@ _RUN_COLUMNS = ("path_length", "path_ratio", "excursion", "time")
 def build_outcome_table(comparison: LawComparison) -> TableSpec:
     """Tabulate the outcomes of the runs of each law, for each locked joint."""
     kinds = error_kinds(comparison.laws[0])
-    percent_columns = [*OUTCOME_NAMES, "reachable"]
-    columns = [Header("law", "law"), Header("failure", "locked")]
-    columns += [Header(name, "within reach" if name == "reachable" else name, style="percent") for name in percent_columns]
-    columns.insert(3, Header("interval", "95 % interval", style="percent"))
-    columns += [Header(f"{kind.key}_astray", f"median miss, {kind.unit}", aligned=False) for kind in kinds]
+    columns: list[Column] = [
+        *("law", "locked"),
+        *make_headers(OUTCOME_NAMES[0], "95 % interval", *OUTCOME_NAMES[1:], "within reach", style="percent"),
+        *make_headers(*(f"median miss, {kind.unit}" for kind in kinds), aligned=False),
+    ]
     rows = [
         [
             row["law"],
             row["failure"],
             row["converged"],
             (row["converged_low"], row["converged_high"]),
-            *(row[name] for name in percent_columns[1:]),
+            *(row[name] for name in (*OUTCOME_NAMES[1:], "reachable")),
             *(_scale(row[f"{kind.key}_astray"], kind.factor) for kind in kinds),
         ]
         for row in comparison.table
@@ -43,24 +43,17 @@ def build_outcome_table(comparison: LawComparison) -> TableSpec:
 def build_detail_table(comparison: LawComparison) -> TableSpec:
     """Tabulate quantiles of the errors, for the report."""
     kinds, levels = error_kinds(comparison.laws[0]), ("50", "75", "95")
-    columns = [
-        Header("law", "law"),
-        Header("failure", "locked"),
-        Header("converged_reachable", "converged, of those within reach", style="percent"),
-        Header("converged_within_limits", "converged within limits", style="percent"),
-        Header("past_limits", "pass a limit", style="percent"),
-    ]
-    columns += [
-        Header(f"{kind.key}_{level}", f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}", aligned=False)
-        for kind in kinds
-        for level in levels
-    ]
-    columns += [
-        Header("path_ratio", "path length, divided by the straight distance", aligned=False),
-        Header("excursion", "sum of the joint ranges, rad and m", aligned=False),
+    errors = [f"{kind.text}, {kind.unit}: {'median' if level == '50' else f'{level} %'}" for kind in kinds for level in levels]
+    columns: list[Column] = [
+        *("law", "locked"),
+        *make_headers("converged, of those within reach", "converged within limits", "pass a limit", style="percent"),
+        *make_headers(*errors, "path length, divided by the straight distance", aligned=False),
+        Header("sum of the joint ranges, rad and m", aligned=False),
     ]
     factors = {f"{kind.key}_{level}": kind.factor for kind in kinds for level in levels}
-    rows = [[_scale(row[column.key], factors.get(column.key)) for column in columns] for row in comparison.table]
+    percent_keys = ("converged_reachable", "converged_within_limits", "past_limits")
+    keys = ("law", "failure", *percent_keys, *factors, "path_ratio", "excursion")
+    rows = [[_scale(row[key], factors.get(key)) for key in keys] for row in comparison.table]
     return TableSpec("Quantiles of the final errors, and medians of path and joint ranges", columns, rows, on_console=False)
 
 
@@ -72,9 +65,8 @@ def _scale(value: Any, factor: float | None) -> Any:
 def build_gain_table(comparison: LawComparison, gains: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the paired differences to the first law, with their intervals."""
     kinds = error_kinds(comparison.laws[0])
-    columns = [Header("law", "law"), Header("failure", "locked"), Header("gain", "converged, percentage points")]
-    columns += [Header("gain_p_value", "p", digits=2, aligned=False)]
-    columns += [Header(kind.key, f"mean {kind.text}, {kind.unit}") for kind in kinds]
+    columns: list[Column] = ["law", "locked", "converged, percentage points", Header("p", digits=2, aligned=False)]
+    columns += [f"mean {kind.text}, {kind.unit}" for kind in kinds]
     rows = [
         [
             row["law"],
@@ -96,14 +88,7 @@ def _format_difference(row: dict[str, Any], key: str, factor: float) -> str:
 
 def build_contact_table(comparison: LawComparison) -> TableSpec:
     """Tabulate the runs with a contact, the converged runs without one, and the objects touched first."""
-    columns = [
-        Header("law", "law"),
-        Header("failure", "locked"),
-        Header("touched", "touch something", style="percent"),
-        Header("interval", "95 % interval", style="percent"),
-        Header("converged_clear", "converge and touch nothing", style="percent"),
-        Header("objects", "touched first"),
-    ]
+    percent_columns = make_headers("touch something", "95 % interval", "converge and touch nothing", style="percent")
     rows = []
     for row in comparison.table:
         contacts = comparison.case(row["law"], row["failure"]).contacts or ()
@@ -111,32 +96,20 @@ def build_contact_table(comparison: LawComparison) -> TableSpec:
         objects = ", ".join(f"{name} ({format_percent(count / len(comparison))})" for name, count in first_touched)
         interval = (row["touched_low"], row["touched_high"])
         rows.append([row["law"], row["failure"], row["touched"], interval, row["converged_clear"], objects or "nothing"])
-    return TableSpec("Contacts on the way, and the objects that are touched first", columns, rows)
+    title = "Contacts on the way, and the objects that are touched first"
+    return TableSpec(title, ["law", "locked", *percent_columns, "touched first"], rows)
 
 
 def build_cost_table(comparison: LawComparison, costs: list[dict[str, Any]]) -> TableSpec:
     """Tabulate the cost of each law for the healthy arm."""
-    time_unit = get_time_unit(comparison)
-    columns = [Header("law", "law")]
-    for measure, unit, text in (
-        ("deviation", "m", "from the line, m"),
-        ("angle", "deg", "angle, deg"),
-        ("time", "", f"time, {time_unit}"),
-    ):
-        suffix = f"_{unit}" if unit else ""
-        columns += [Header(f"{measure}_50{suffix}", f"{text}: median"), Header(f"{measure}_95{suffix}", "95 % quantile")]
-    rows = [[row[column.key] for column in columns] for row in costs]
-    return TableSpec(
+    columns = ["law"]
+    for text in ("from the line, m", "angle, deg", f"time, {comparison.runs[0].unit}"):
+        columns += [f"{text}: median", "95 % quantile"]
+    title = (
         "Cost while the arm is healthy, over the motions that converge with every law: distance from the straight line, "
-        "largest angle to the command, and time to the target",
-        columns,
-        rows,
+        "largest angle to the command, and time to the target"
     )
-
-
-def get_time_unit(comparison: LawComparison) -> str:
-    """Return the unit of the time of a run."""
-    return "cycles" if comparison.runs[0].cycles else "s"
+    return TableSpec(title, columns, [list(row.values()) for row in costs])
 
 
 def tabulate_gains(comparison: LawComparison) -> list[dict[str, Any]]:
@@ -159,12 +132,9 @@ def tabulate_healthy_costs(comparison: LawComparison) -> list[dict[str, Any]]:
     table_rows = []
     for name in comparison.names:
         row: dict[str, Any] = {"law": name}
-        for measure, unit, factor in (("deviation", "m", 1.0), ("angle", "deg", 180 / np.pi), ("time", "", 1.0)):
+        for measure, suffix, factor in (("deviation", "_m", 1.0), ("angle", "_deg", 180 / np.pi), ("time", "", 1.0)):
             median, upper_quantile = factor * comparison.cost(name, measure, (0.5, 0.95))  # type: ignore[arg-type]
-            row |= {
-                "_".join(word for word in (measure, quantile, unit) if word): value
-                for quantile, value in (("50", median), ("95", upper_quantile))
-            }
+            row |= {f"{measure}_50{suffix}": median, f"{measure}_95{suffix}": upper_quantile}
         table_rows.append(row)
     return table_rows
 
@@ -174,23 +144,14 @@ def tabulate_runs(comparison: LawComparison) -> list[dict[str, Any]]:
     table_rows: list[dict[str, Any]] = []
     for case in (comparison.case(name, failure) for name in comparison.names for failure in comparison.failures):
         for motion in range(len(comparison)):
-            row: dict[str, Any] = {
-                "law": case.law,
-                "failure": case.failure,
-                "motion": motion,
-                "outcome": OUTCOME_NAMES[case.code[motion]],
-            }
-            row["reachable"] = int(case.reachable[motion])
+            row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": motion}
+            row |= {"outcome": OUTCOME_NAMES[case.code[motion]], "reachable": int(case.reachable[motion])}
             row |= {kind.key: f"{getattr(case, kind.name)[motion]:.9g}" for kind in error_kinds(comparison.laws[0])}
             row |= {column: f"{getattr(case, column)[motion]:.9g}" for column in _RUN_COLUMNS}
             row["past_limits"] = int(case.past_limits[motion])
             if case.contacts is not None:
                 contact = case.contacts[motion]
-                row |= {"touched_at": "", "link": "", "object": ""}
-                row |= (
-                    {}
-                    if contact is None
-                    else {"touched_at": f"{contact.time:.9g}", "link": contact.link, "object": contact.object}
-                )
+                cells = ("", "", "") if contact is None else (f"{contact.time:.9g}", contact.link, contact.object)
+                row |= dict(zip(("touched_at", "link", "object"), cells, strict=True))
             table_rows.append(row)
     return table_rows

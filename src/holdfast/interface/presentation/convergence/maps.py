@@ -17,7 +17,7 @@ from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
 from holdfast.interface.presentation.convergence.shares import format_range
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec, make_headers
 
 save = partial(renderers.save, dpi=130)
 _END_PHRASES = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
@@ -172,13 +172,11 @@ def list_method_facts(result: ConvergenceMap) -> list[tuple[str, str]]:
 
 def _tabulate_outcomes(result: ConvergenceMap) -> TableSpec:
     """Tabulate the outcomes of the motions for each locked joint."""
-    columns = [Header("locked", "locked"), Header("converged", "converged", style="percent")]
-    columns += [Header(outcome, outcome, style="percent") for outcome in ("stuck", "moving", "undecided")]
-    columns.append(Header("trapped", "in reach, not reached", style="percent"))
-    columns += [] if result.touched is None else [Header("touched", "touch something", style="percent")]
-    shares = [result.shares(column.key) for column in columns[1:]]
+    labels = {name: name for name in ("converged", "stuck", "moving", "undecided")} | {"trapped": "in reach, not reached"}
+    labels |= {} if result.touched is None else {"touched": "touch something"}
+    shares = [result.shares(outcome) for outcome in labels]
     rows = [(name, shares[0][name], *(share[name].value for share in shares[1:])) for name in result.columns]
-    return TableSpec("How the motions end", columns, rows)
+    return TableSpec("How the motions end", ["locked", *make_headers(*labels.values(), style="percent")], rows)
 
 
 def _write_csv(result: ConvergenceMap, path: Path) -> None:

@@ -18,7 +18,7 @@ from holdfast.core.files.output import replace_file
 from holdfast.core.formatting import format_count, format_number, format_percent
 from holdfast.interface.presentation import renderers
 from holdfast.interface.presentation.convergence.places import prepare_place_maps, write_place_table
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
 
 _METHOD_TEXTS = {
     "brute": "all failures simulated, from configurations equally spaced along the self-motion",
@@ -203,7 +203,7 @@ def _compose_answer(analysis: Workspace | TargetMeasures, fallback: str) -> tupl
 def _tabulate_means(analysis: Workspace | TargetMeasures, place_noun: str, with_intervals: bool = True) -> TableSpec:
     """Tabulate the mean of each measure for each joint and for any joint."""
     means, intervals = analysis.means(), analysis.intervals()
-    columns = [Header("joint", "joint"), *(Header(measure, measure) for measure in means)]
+    columns = ["joint", *(measure for measure in means)]
     cells: list[Any] = [
         [_format_with_interval(value, *ends) for value, ends in zip(values, intervals[measure], strict=True)]
         if with_intervals
@@ -230,11 +230,11 @@ def _build_workspace_tables(workspace: Workspace) -> list[TableSpec]:
         bound_rows.append([joint.name, arcs_text or "no value"])
     tables = [
         _tabulate_means(workspace, "the starts", sampled),
-        TableSpec("", [Header("joint", "joint"), Header("bounds", "target within reach if locked at")], bound_rows),
+        TableSpec("", ["joint", "target within reach if locked at"], bound_rows),
     ]
     if sampled:
         names = ["R100", "F100"] if workspace.ends.sum() else ["R100"]
-        columns = [Header("joint", "joint"), *(Header(name, f"starts with {name} 100, percent") for name in names)]
+        columns = ["joint", *(f"starts with {name} 100, percent" for name in names)]
         shares = [
             [
                 _format_with_interval(100 * share.value, 100 * share.low, 100 * share.high)

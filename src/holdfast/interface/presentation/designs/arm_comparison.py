@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number
-from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.presentation import Presentation, TableSpec, format_value
 from holdfast.kinematics.index_bounds.manipulability_bounds import failure_phrase
 from holdfast.studies.designs.arm_comparison import ArmComparison
 
@@ -46,7 +46,7 @@ def present(comparison: ArmComparison) -> Presentation:
         first = int(np.argmax(comparison.values[0] > 0))
         value_text = format_value(float(comparison.values[0, first]), "number", columns[first].unit)
         answer = f"{capitalise_first(columns[first].name)}: {value_text}."
-    head = [Header("measure", "measure"), Header("unit", "unit"), Header("samples", "samples")]
+    head = ["measure", "unit", "samples"]
     rows = []
     for index, column in enumerate(columns):
         estimates = zip(comparison.values[:, index], comparison.low[:, index], comparison.high[:, index], strict=True)
@@ -60,7 +60,7 @@ def present(comparison: ArmComparison) -> Presentation:
         answer,
         about=f"{', '.join(names)}: task {comparison.task.name}, {comparison.region.name}, seed {comparison.seed}",
         lines=[f"{capitalise_first(remark)}." for remark in comparison.left_out],
-        tables=[TableSpec(title, [*head, *(Header(name, name) for name in names)], rows)],
+        tables=[TableSpec(title, [*head, *names], rows)],
         method=[
             ("Task", comparison.task.describe()),
             ("Region", comparison.region.describe()),

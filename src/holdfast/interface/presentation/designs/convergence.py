@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.files.output import replace_file
-from holdfast.core.formatting import capitalise_first, format_percent
+from holdfast.core.formatting import format_percent
 from holdfast.core.probability.intervals import Difference, Interval
 from holdfast.interface import report
+from holdfast.interface.presentation.commands import build_command_block
 from holdfast.interface.presentation.convergence.shares import format_points
 from holdfast.interface.presentation.designs.figures import draw_parameters
 from holdfast.interface.presentation.designs.parameters import (
@@ -21,8 +22,16 @@ from holdfast.interface.presentation.designs.parameters import (
     list_bound_notices,
     tabulate_parameters,
 )
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec, format_value
-from holdfast.interface.report.page import Block, Code, Section
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    FigureSpec,
+    Presentation,
+    TableSpec,
+    format_value,
+    make_headers,
+)
+from holdfast.interface.report.page import Section
 from holdfast.model import arms
 from holdfast.studies.designs.convergence import DEFAULT_TARGETS, FAILURES_PER_JOINT, ConvergenceDesigns
 
@@ -77,8 +86,7 @@ def present(designs: ConvergenceDesigns) -> Presentation:
     facts = [] if is_given else [Fact("", best_value, phrase=phrases[1], style="percent")]
     facts.append(Fact("", given_value, phrase=phrases[0], style="percent"))
     facts.append(Fact("designs", len(designs.values), phrase="designs were evaluated"))
-    columns = [Header("measure", "measure"), Header("given", "baseline arm", style="percent")]
-    columns += [Header("best", "best design", style="percent"), Header("meaning", "meaning")]
+    columns: list[Column] = ["measure", *make_headers("baseline arm", "best design", style="percent"), "meaning"]
     tables = [tabulate_parameters(designs.space, designs.values[best]), TableSpec("Measured in the search", columns, measures)]
     settings = designs.searched
     measured = (
@@ -117,7 +125,7 @@ def present(designs: ConvergenceDesigns) -> Presentation:
             ("Seed", str(settings["seed"])),
         ],
         arm=law.arm,
-        again=partial(_build_rerun_blocks, designs) if can_rerun else tuple,
+        again=(lambda: [build_command_block(*format_command(designs))]) if can_rerun else tuple,
         exports={"designs.csv": partial(_write_designs, designs), ARM_FILE: partial(_write_arm, designs)},
     )
 
@@ -162,11 +170,6 @@ def _draw_parameters(designs: ConvergenceDesigns) -> report.Figure:
 def _build_sections(designs: ConvergenceDesigns) -> list[Section]:
     remark = "The file has no link masses, because a Denavit-Hartenberg table does not contain them."
     return [build_arm_section(designs.space, designs.values[designs.best], designs.arm_file(), remark)]
-
-
-def _build_rerun_blocks(designs: ConvergenceDesigns) -> list[Block]:
-    command_line, remark = format_command(designs)
-    return [Code(command_line, remark and f"{capitalise_first(remark)}:")]
 
 
 def format_command(designs: ConvergenceDesigns) -> tuple[str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from holdfast.interface.presentation.commands import format_region_file
 from holdfast.interface.presentation.designs import sections
 from holdfast.interface.presentation.designs.figures import draw_before_and_after, draw_pareto_front
 from holdfast.interface.presentation.designs.parameters import ARM_FILE, list_bound_notices, tabulate_parameters
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Notice, Presentation, TableSpec
 from holdfast.studies.designs.designs import (
     SAME_VALUE_TOLERANCE,
     Designs,
@@ -36,16 +37,10 @@ def to_dict(designs: Designs) -> dict[str, Any]:
     """Return the baseline arm and the best design as JSON data, in rad, m, and fractions."""
 
     def describe_arm(number: int, checked: HeldOutResult) -> dict[str, Any]:
-        guaranteed = checked.guaranteed
         return {
             "values": dict(zip(designs.space.names, designs.values[number].tolist(), strict=True)),
             "guaranteed_in_search": float(designs.guaranteed[number]),
-            "guaranteed": {
-                "value": guaranteed.value,
-                "low": guaranteed.low,
-                "high": guaranteed.high,
-                "confidence": guaranteed.confidence,
-            },
+            "guaranteed": asdict(checked.guaranteed),
             "median": float(checked.distribution.quantile(0.5, reachable_only=False)),
             "reached": 1 - checked.distribution.unreached_share,
             "reach": float(designs.reach[number]),
@@ -99,7 +94,7 @@ def present(designs: Designs) -> Presentation:
         ("poses reached", *(format_percent(1 - held_out.distribution.unreached_share) for held_out in (given, best))),
         ("reach, m", f"{designs.start_reach:.3f}", f"{designs.reach[designs.best]:.3f}"),
     ]
-    value_columns = [Header("measure", ""), Header("given", "baseline arm"), Header("best", "best design")]
+    value_columns = ["", "baseline arm", "best design"]
     search_value = float(designs.guaranteed[designs.best])
     front_reach = f"{designs.reach[designs.front[0]]:.4g} to {designs.reach[designs.front[-1]]:.4g} m"
     figures = {
@@ -210,12 +205,12 @@ def _list_lost_poses(designs: Designs) -> list[Notice]:
 def _tabulate_front(designs: Designs) -> TableSpec:
     """Tabulate designs of the Pareto front for the page."""
     picked = _choose_front_designs(designs.front, designs.best)
-    columns = [
-        Header("best", ""),
-        Header("reach", "reach, m"),
-        Header("guaranteed", f"index of {format_level(designs.level)} of the poses, at least"),
-        Header("reached", "poses reached", style="percent"),
-        *(Header(parameter.name, f"{parameter.name}, {parameter.display_unit[1]}") for parameter in designs.space.parameters),
+    columns: list[Column] = [
+        "",
+        "reach, m",
+        f"index of {format_level(designs.level)} of the poses, at least",
+        Header("poses reached", style="percent"),
+        *(f"{parameter.name}, {parameter.display_unit[1]}" for parameter in designs.space.parameters),
     ]
     factors = [parameter.display_unit[0] for parameter in designs.space.parameters]
     rows = [

@@ -8,10 +8,9 @@ import numpy as np
 
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
-from holdfast.interface.presentation.arm.view import choose_views
+from holdfast.interface.presentation.arm.view import choose_views, find_box_corners, find_middle_of_limits, reach_center
 from holdfast.interface.report.palette import BLUE, INK, ORANGE, SKY, SOFT
 from holdfast.kinematics.regions.region import Region
-from holdfast.kinematics.solvers.inverse_kinematics import solver
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task
 
@@ -72,52 +71,22 @@ def draw_pareto_front(
 
 def draw_before_and_after(baseline: Arm, best: Arm, task: Task, region: Region, seed: int) -> report.Figure:
     """Draw the baseline arm and the best one on the same scale, with the tool at the region centre if the arm reaches it."""
-    box = None
-    if region.kind == "box":
-        c, s = np.array(region.center[:3]), np.array(region.size[:3])
-        box = np.array([c - s / 2, c + s / 2])
-    scenes = []
-    no_points = np.zeros((0, 3))
+    scenes, box = [], find_box_corners(region)
     for arm in (baseline, best):
-        joint_positions = arm.frames(_choose_configuration(arm, task, region, seed))[:, :3, 3]
-        scenes.append(
-            report.Scene(
-                no_points,
-                np.zeros(0),
-                no_points,
-                chain=joint_positions,
-                nodes=joint_positions[1:-1],
-                square=arm.prismatic,
-                box=box,
-            )
-        )
+        q = reach_center(arm, task, region, seed, 50)
+        chain = arm.frames(find_middle_of_limits(arm) if q is None else q)[:, :3, 3]
+        scenes.append(report.Scene(chain=chain, square=arm.prismatic, box=box))
     view = choose_views(baseline, np.concatenate([scene.chain for scene in scenes]))[0]
     # Both panels show the same part of the world.
-    extents = np.concatenate([s.extent for s in scenes])
-    common_scene = report.Scene(extents, np.full(len(extents), np.nan), no_points)
+    extent = report.Scene(np.concatenate([scene.extent for scene in scenes])).extent
     with report.styled_figure(report.WIDTH_IN, 5.4) as figure:
         panels: Sequence[report.Axes] = figure.subplots(1, 2)
-        spans, height = report.scenes.fit_view_spans(common_scene, [view], 4.4, 2.2, 4.6)
+        spans, height = report.scenes.fit_view_spans(extent, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
-        middle = view.project(common_scene.extent.mean(axis=0))
         for axes, scene, title in zip(panels, scenes, ("before: " + baseline.name, "after: " + best.name), strict=True):
-            report.scenes.draw_view(axes, scene, view, report.Scale(0.0, 1.0), 1.0, spans, 4.4)
-            axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
-            axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
+            report.scenes.draw_view(axes, scene, view, report.Scale(0.0, 1.0), 1.0, spans, 4.4, extent.mean(axis=0))
             axes.set_title(report.format_label(title, 44))
     return figure
-
-
-def _choose_configuration(arm: Arm, task: Task, region: Region, seed: int) -> FloatArray:
-    lower = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
-    upper = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
-    if region.kind == "box":
-        poses = region.poses(np.array(region.center)[None])
-        solutions = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
-        if solutions.success[0]:
-            q: FloatArray = solutions.q[0]
-            return q
-    return np.asarray((lower + upper) / 2)
 
 
 def draw_parameters(

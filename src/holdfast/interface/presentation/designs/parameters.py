@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.presentation import Header, Notice, TableSpec
+from holdfast.interface.presentation.presentation import Notice, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.report.page import Block, Code, Section, Text
 from holdfast.studies.designs.space import DesignParameter, DesignSpace
@@ -52,14 +52,7 @@ def list_bound_notices(space: DesignSpace, best: FloatArray) -> list[Notice]:
 
 def tabulate_parameters(space: DesignSpace, best: FloatArray) -> TableSpec:
     """Tabulate the parameters of the baseline arm and of the best design (k,); a section of the page contains this table."""
-    columns = [
-        Header("parameter", "parameter"),
-        Header("description", "description"),
-        Header("given", "baseline arm"),
-        Header("best", "best design"),
-        Header("bounds", "bounds"),
-        Header("remark", ""),
-    ]
+    columns = ["parameter", "description", "baseline arm", "best design", "bounds", ""]
     rows = []
     for parameter, before, after in zip(space.parameters, space.start.tolist(), best.tolist(), strict=True):
         row_number = None if parameter.row is None else parameter.row + 1

@@ -101,13 +101,12 @@ def _present_check(check: RecordCheck) -> Presentation:
 
 
 def _tabulate_claims(check: RecordCheck) -> TableSpec:
-    return TableSpec("", [Header("said", "claim"), Header("holds", "holds")], check.claims)
+    return TableSpec("", [Header("claim", key="said"), "holds"], check.claims)
 
 
 def _tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> TableSpec:
     """Tabulate records, a row for each."""
-    keys = ("record", "task", "joints", "locked", "value", "bound", "by", "gap")
-    columns = [Header(key, "upper bound" if key == "bound" else key) for key in keys]
+    columns = ["record", "task", "joints", "locked", "value", "upper bound", "by", "gap"]
     rows = []
     for record in records:
         kind, bound = record.data.kind, record.data.proven_bound

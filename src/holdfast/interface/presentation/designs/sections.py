@@ -6,10 +6,11 @@ import shlex
 
 import numpy as np
 
-from holdfast.core.formatting import capitalise_first, format_as_given
+from holdfast.core.formatting import format_as_given
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.commands import (
+    build_command_block,
     build_region_file_blocks,
     format_failures_option,
     format_task_option,
@@ -25,9 +26,7 @@ from holdfast.studies.designs.designs import Designs, HeldOutResult, format_leve
 
 def build_sections(designs: Designs) -> list[Section]:
     """Build the sections with the best arm, and with the distribution of the index for both arms."""
-    assess_command = (
-        f"holdfast assess {ARM_FILE} --region region.yaml --task {_format_task_option(designs)} --optimise --out check"
-    )
+    assess_command = f"holdfast assess {ARM_FILE} --region region.yaml --task {_quote_task(designs)} --optimise --out check"
     arm_section = build_arm_section(
         designs.space,
         designs.values[designs.best],
@@ -50,7 +49,7 @@ def _build_distribution_blocks(designs: Designs) -> list[Block]:
     curves = [_make_curve(checked, name, axis_values) for checked, name in ((best, "best design"), (baseline, "baseline arm"))]
     unit_text = "" if designs.index.unit == "1" else f", {designs.index.unit}"
     label = report.format_label(f"worst-case {designs.index.name}{unit_text}")
-    figure = report.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
+    figure = report.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F")
     explanation = (
         f"{best.distribution.samples:,} held-out poses of the region, each at its best configuration; a pose that is not "
         f"reached counts as 0. A curve crosses {format_level(1 - designs.level)} at the quantile in the table."
@@ -70,7 +69,7 @@ def format_arm_file(designs: Designs) -> str:
     return format_dh_file(designs.space.table_of(designs.values[designs.best]), arm.name, arm.gravity, arm.source)
 
 
-def _format_task_option(designs: Designs) -> str:
+def _quote_task(designs: Designs) -> str:
     return shlex.quote(format_task_option(designs.space.arm, designs.index.task) or "TASK")
 
 
@@ -82,7 +81,7 @@ def format_command(designs: Designs) -> tuple[str, str]:
     words += [
         f"--maximise {designs.index.label}",
         "--region region.yaml",
-        f"--task {shlex.quote(format_task_option(space.arm, designs.index.task) or 'TASK')}",
+        f"--task {_quote_task(designs)}",
     ]
     if designs.index.task.length != 1.0:
         words.append(f"--length {designs.index.task.length!r}")
@@ -100,8 +99,5 @@ def format_command(designs: Designs) -> tuple[str, str]:
 
 def build_rerun_blocks(designs: Designs) -> list[Block]:
     """Build the command that repeats the search, and its region file."""
-    command_line, remark = format_command(designs)
-    return [
-        Code(command_line, remark and f"{capitalise_first(remark)}:"),
-        *(build_region_file_blocks(designs.region) if designs.region.storable else []),
-    ]
+    region_blocks = build_region_file_blocks(designs.region) if designs.region.storable else []
+    return [build_command_block(*format_command(designs)), *region_blocks]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first, format_number
-from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Presentation, TableSpec, make_headers
 from holdfast.response.diagnosis.bounds import Bounds
 
 
@@ -39,12 +39,7 @@ def present(bounds: Bounds) -> Presentation:
     missing = [] if np.isfinite(bounds.torque).all() else ["torques"]
     missing += [] if np.isfinite(bounds.position) else ["the measured tool pose"]
     lines += [f"not monitored: {signal} (not in the logs)" for signal in missing]
-    columns = [
-        Header("joint", "joint"),
-        Header("torque", "residual torque, N m (N)", digits=3),
-        Header("tracking", "tracking, rad (m)", digits=3),
-        Header("speed", "largest speed, rad/s (m/s)", digits=3),
-    ]
+    labels = ("residual torque, N m (N)", "tracking, rad (m)", "largest speed, rad/s (m/s)")
     hours = f"{bounds.hours:.3g} h" if bounds.hours >= 0.1 else f"{format_number(3600 * bounds.hours, 3)} s"
     rows = list(zip(bounds.joints, bounds.torque, bounds.tracking, bounds.speed, strict=True))
     return Presentation(
@@ -52,5 +47,5 @@ def present(bounds: Bounds) -> Presentation:
         f"The thresholds come from {bounds.logs} log{'s' * (bounds.logs != 1)} with {hours} of "
         f"healthy motion at {bounds.rate:.4g} Hz.",
         lines=[f"{capitalise_first(line)}." for line in lines],
-        tables=[TableSpec("Thresholds", columns, rows)],
+        tables=[TableSpec("Thresholds", ["joint", *make_headers(*labels, digits=3)], rows)],
     )

@@ -63,7 +63,7 @@ def present(result: Observability | ProbingMotion | Identification) -> Presentat
     if isinstance(result, Identification):
         answer, *lines = _describe_identification(result)
         rows = [[name, "possible"] for name in result.remaining] + [[name, "not locked"] for name in result.cleared]
-        columns = [Header("joint", "locked joint"), Header("state", "after the log")]
+        columns = ["locked joint", "after the log"]
         return _compose("Identification of a locked joint", answer, lines, TableSpec("Hypotheses", columns, rows))
     is_probe = isinstance(result, ProbingMotion)
     answer, *lines = _describe_probe(result) if isinstance(result, ProbingMotion) else _describe_observability(result)
@@ -139,15 +139,14 @@ def _tabulate_joints(result: Observability | ProbingMotion) -> TableSpec:
     distinguishable = dict.fromkeys(names, "yes") | {name: "not from all" for locks in result.inseparable for name in locks}
     distinguishable |= dict.fromkeys(unseen, "no")
     nearest = [float(np.delete(row, row_index).min()) for row_index, row in enumerate(result.separation)][1:]
-    columns = [Header("joint", "joint"), Header("nats", "log-likelihood ratio", digits=3, aligned=False)]
-    columns.append(Header("apart", "distinguished by the tool pose"))
+    ratio, apart = Header("log-likelihood ratio", digits=3, aligned=False), "distinguished by the tool pose"
     remark = f"with the log-likelihood ratio to the closest hypothesis, above {LOG_LIKELIHOOD_THRESHOLD:.2g} if distinguished"
     if not isinstance(result, ProbingMotion):
         rows = [[name, nearest[row], distinguishable[name]] for row, name in enumerate(names)]
-        return TableSpec(f"Locks, {remark}", columns, rows)
-    columns.insert(1, Header("rate", "largest rate in a unit self-motion", digits=2, aligned=False))
+        return TableSpec(f"Locks, {remark}", ["joint", ratio, apart], rows)
+    rate = Header("largest rate in a unit self-motion", digits=2, aligned=False)
     rows = [[names[row], result.visible[row], nearest[row], distinguishable[names[row]]] for row in result.suspects]
-    return TableSpec(f"Candidate joints, {remark}", columns, rows)
+    return TableSpec(f"Candidate joints, {remark}", ["joint", rate, ratio, apart], rows)
 
 
 def _draw_separation(result: Observability | ProbingMotion) -> report.Figure:

@@ -11,7 +11,7 @@ from holdfast.core.formatting import capitalise_first, format_seconds
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.diagnosis.bounds import present as present_bounds
-from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import FigureSpec, Presentation, TableSpec, make_headers
 from holdfast.response.diagnosis.answer import Diagnosis
 
 _KIND_PHRASES = {
@@ -117,13 +117,8 @@ def _tabulate_joints(diagnosis: Diagnosis) -> TableSpec:
         ]
         for joint, name in enumerate(diagnosis.arm.joint_names)
     ]
-    columns = [
-        Header("joint", "joint"),
-        Header("torque", "residual torque", digits=3, aligned=False),
-        Header("tracking", "tracking", digits=3, aligned=False),
-        Header("moved", "moved enough"),
-    ]
-    return TableSpec("Largest residuals, divided by their thresholds", columns, rows)
+    residuals = make_headers("residual torque", "tracking", digits=3, aligned=False)
+    return TableSpec("Largest residuals, divided by their thresholds", ["joint", *residuals, "moved enough"], rows)
 
 
 def _draw_residuals(diagnosis: Diagnosis) -> report.Figure:

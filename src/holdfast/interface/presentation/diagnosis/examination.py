@@ -133,7 +133,7 @@ def _tabulate(examination: Examination) -> list[TableSpec]:
     return [
         TableSpec(
             title,
-            [Header(name, name, "s" if rows is alarms and name == "alarm" else "", digits=3) for name in names],
+            [Header(name, "s" if rows is alarms and name == "alarm" else "", digits=3) for name in names],
             rows,
             on_console=rows is not episodes,
             on_page=bool(rows),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -12,8 +14,13 @@ from holdfast.control.equilibria.stability import Kind
 from holdfast.core.formatting import format_count, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.equilibria import points as points_of
-from holdfast.interface.presentation.equilibria.curves import display_values, label_axis
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.equilibria.curves import break_at_angle_wraps, display_values, label_axis
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec
+
+# Pale colours of basins, which differ in hue and lightness.
+_SOLUTION_COLORS = ("#bfe3d6", "#7fb8a8", "#d9edf9", "#93c4e3", "#f3e3b3", "#dcc46f")
+_STUCK_COLORS = ("#f4c7ab", "#e39a6f", "#f7dccb", "#c98058")
+_OUTCOME_COLORS = {"moving": "#c9a3bb", "undecided": "#d4d9de", "target": "#bfe3d6", "stuck": "#f4c7ab"}
 
 
 def to_dict(basins: Basins) -> dict[str, Any]:
@@ -70,7 +77,7 @@ def present(basins: Basins) -> Presentation:
         f"a grid of {basins.shape[0]} by {basins.shape[1]}" if basins.shape else "sampled uniformly within the joint limits"
     )
     errors = dict(zip(map(basins.name, range(len(points))), points_of.format_target_errors(points).tolist(), strict=True))
-    columns = [Header("end", "ends at"), Header("fraction", "fraction of starts"), Header("error", "distance from the target")]
+    columns = ["ends at", "fraction of starts", "distance from the target"]
     rows = [(name, fraction, errors.get(name, "")) for name, fraction in basins.shares]
     return Presentation(
         f"Starts from which {points.law.arm.name} still reaches its target",
@@ -117,37 +124,79 @@ def _target_errors(basins: Basins) -> dict[str, str]:
 
 
 def _draw_basins(basins: Basins) -> report.Figure:
-    """Draw a map of the basins where the initial configurations are a grid over two joints (Fig. 8 of Goel et al. 2005), else
-    bars.
-    """
-    points, arm = basins.points, basins.points.law.arm
-    lock_text = ", ".join(
-        f"{arm.joint_names[index]} locked at {value * arm.joints[index].display_unit[0]:.4g} "
-        f"{arm.joints[index].display_unit[1]}"
-        for index, value in zip(points.locked, points.at, strict=True)
-    )
-    caption = f"{arm.name}, {points.law.name}; {lock_text}; {len(basins.end)} starts"
-    shares = basins.shares
-    if basins.shape is None:
-        caption_text = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
-        return report.curves.basin_fraction_figure(
-            [outcome for outcome, _ in shares],
-            [(interval.value, interval.low, interval.high) for _, interval in shares],
-            caption_text,
-        )
-    first, second = basins.healthy
+    """Draw a map of the basins where the initial configurations are a grid over two joints, else bars."""
+    points = basins.points
+    caption = f"{points.law.arm.name}, {points.law.name}; {points_of.describe_locks(points)}; {len(basins.end)} starts"
+    return _draw_bars(basins, caption) if basins.shape is None else _draw_map(basins, basins.shape, caption)
+
+
+def _draw_bars(basins: Basins, caption: str) -> report.Figure:
+    names, intervals = zip(*basins.shares, strict=True)
+    with report.styled_figure(report.WIDTH_IN * 0.8, 1.2 + 0.32 * len(names)) as figure:
+        axes = figure.add_subplot()
+        ends = ([getattr(interval, end) for interval in intervals] for end in ("value", "low", "high"))
+        percentages, lower, upper = 100 * np.array(list(ends))
+        axes.barh(range(len(names)), percentages, height=0.6, color=_choose_colors(names), edgecolor=report.FAINT)
+        errors = [percentages - lower, upper - percentages]
+        style = {"fmt": "none", "ecolor": report.INK, "elinewidth": 1.0, "capsize": 3}
+        axes.errorbar(percentages, range(len(names)), xerr=errors, **style)
+        report.label_bars(axes, names, upper, texts=[f"{percentage:.1f} %" for percentage in percentages])
+        axes.set(xlabel="fraction of start configurations, %", xlim=(0, 112))
+        text = f"{caption}; lines: {100 * basins.confidence:.4g} % intervals"
+        figure.supxlabel(report.format_label(text, 200), fontsize=9, color=report.SOFT)
+    return figure
+
+
+def _draw_map(basins: Basins, shape: tuple[int, ...], caption: str) -> report.Figure:
+    """Draw the outcome of a motion that starts at the centre of each cell over two joints (Fig. 8 of Goel et al. 2005)."""
+    points, arm, joints = basins.points, basins.points.law.arm, list(basins.healthy)
     codes, cells = np.unique(basins.end, return_inverse=True)
     names = [basins.name(int(code)) for code in codes]
-    lower, upper = (extremum(basins.starts[:, [first, second]], axis=0) for extremum in (np.min, np.max))
-    half_cells = (upper - lower) / (np.array(basins.shape) - 1) / 2
-    lower, upper = lower - half_cells, upper + half_cells
-    scale = np.array([arm.joints[first].display_unit[0], arm.joints[second].display_unit[0]])
-    lower_shown, upper_shown = lower * scale, upper * scale
-    isolated = np.flatnonzero(~points.continuum)
-    value, y = (display_values(arm, points.q, index).tolist() for index in (first, second))
-    marks = [(points.kinds[index], value[index], y[index], f"{points.kinds[index]} {index + 1}") for index in isolated]
-    lines = [(display_values(arm, q, first), display_values(arm, q, second)) for q in basins.boundaries]
-    extent = (float(lower_shown[0]), float(upper_shown[0]), float(lower_shown[1]), float(upper_shown[1]))
-    return report.curves.basin_map_figure(
-        cells.reshape(basins.shape), names, extent, marks, lines, (label_axis(arm, first), label_axis(arm, second)), caption
-    )
+    colors = _choose_colors(names)
+    lower, upper = basins.starts[:, joints].min(axis=0), basins.starts[:, joints].max(axis=0)
+    half_cells = (upper - lower) / (np.array(shape) - 1) / 2
+    scale = np.array([arm.joints[joint].display_unit[0] for joint in joints])
+    left, right, below, above = np.stack([(lower - half_cells) * scale, (upper + half_cells) * scale]).T.ravel().tolist()
+    with report.styled_figure(7.4, 6.6) as figure:
+        axes = figure.add_subplot()
+        image = np.array([report.to_rgb(color) for color in colors])[cells.reshape(shape).T]
+        axes.imshow(image, origin="lower", extent=(left, right, below, above), aspect="auto", interpolation="nearest")
+        for q in basins.boundaries:
+            boundary = [display_values(arm, q, joint) for joint in joints]
+            axes.plot(*break_at_angle_wraps(boundary[0], boundary[1], right - left), color=report.INK, linewidth=0.9)
+        unnamed = set()
+        positions = np.stack([display_values(arm, points.q, joint) for joint in joints], axis=1)
+        for index in np.flatnonzero(~points.continuum):
+            kind, position, name = points.kinds[index], positions[index], f"{points.kinds[index]} {index + 1}"
+            color, _, _, marker = report.KIND_STYLES[kind]
+            axes.plot(*position, marker, color=color, markersize=8, markeredgecolor="white", markeredgewidth=1.0)
+            if name in names:
+                axes.annotate(name, position.tolist(), (7, 6), textcoords="offset points", fontsize=9, color=report.INK)
+            else:
+                unnamed.add(kind)
+        axes.grid(visible=False)
+        labels = [label_axis(arm, joint) for joint in joints]
+        axes.set(xlabel=labels[0], ylabel=labels[1], xlim=(left, right), ylim=(below, above))
+        handles: list[report.Line2D | report.Patch] = [
+            report.Patch(color=color, label=report.format_label(name)) for color, name in zip(colors, names, strict=True)
+        ]
+        for kind in sorted(unnamed):
+            color, _, _, marker = report.KIND_STYLES[kind]
+            handles.append(report.Line2D([], [], marker=marker, color=color, linestyle="none", label=kind))
+        if len(basins.boundaries):
+            handles.append(report.Line2D([], [], color=report.INK, linewidth=0.9, label="basin boundary (into a saddle)"))
+        figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 5))
+        for axis, label in zip((axes.xaxis, axes.yaxis), labels, strict=True):
+            if label.endswith("deg"):
+                axis.set_major_locator(report.MultipleLocator(60))
+        figure.supxlabel(report.format_label(caption, 200), fontsize=9, color=report.SOFT)
+    return figure
+
+
+def _choose_colors(names: Sequence[str]) -> list[str]:
+    """Choose the colour of each outcome, for example of ``solution 1`` or ``stuck``."""
+    solution_colors, stuck_colors = cycle(_SOLUTION_COLORS), cycle(_STUCK_COLORS)
+    outcomes = [name.split()[0] for name in names]
+    return [
+        _OUTCOME_COLORS.get(outcome) or next(solution_colors if outcome == "solution" else stuck_colors) for outcome in outcomes
+    ]

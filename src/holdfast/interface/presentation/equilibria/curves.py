@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.control.equilibria.curves import SAMPLE_RADIUS, Curves, EquilibriumCurve, merge_arcs
 from holdfast.control.equilibria.points import StationaryPoints
@@ -15,9 +15,9 @@ from holdfast.control.equilibria.system import wrap_angles
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.control.simulation.system import position_and_angle_errors
 from holdfast.core.formatting import list_alternatives
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.interface import report
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
 from holdfast.model.arm.model import Arm
 
@@ -25,6 +25,7 @@ from holdfast.model.arm.model import Arm
 _REACH_CELLS = 360
 _SAMPLES_PER_CELL = 16
 _MAX_SHOWN_JOINTS = 3
+_REACHABLE_COLOR = "#e3f1ec"
 
 
 def to_dict(curves: Curves) -> dict[str, Any]:
@@ -156,10 +157,8 @@ def _tabulate_segments(curves: Curves) -> TableSpec:
             errors = display_errors(curves.law, curve.q, curve.error, curves.target)
             spans = [values[segment.first : segment.last + 1] for values in errors]
             rows.append((index, f"{first:.3f} to {last:.3f}", segment.kind.word, *((s.min(), s.max()) for s in spans)))
-    columns = [Header("curve", "curve"), Header("range", f"{arm.joint_names[curves.joint]}, {unit}"), Header("kind", "kind")]
-    columns += [
-        Header(kind.key, f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)
-    ]
+    columns: list[Column] = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind"]
+    columns += [Header(f"{kind.text}, {kind.unit}, smallest to largest", aligned=False) for kind in error_kinds(curves.law)]
     return TableSpec("Segments of one kind", columns, rows)
 
 
@@ -179,33 +178,50 @@ def _draw_curves(curves: Curves) -> report.Figure:
         *(label_axis(arm, index) for index in other_joints),
     ]
 
-    def plot_rows(stationary: EquilibriumCurve | StationaryPoints, selected: slice | NDArray[np.bool_]) -> list[FloatArray]:
-        errors = display_errors(curves.law, stationary.q[selected], stationary.error[selected], curves.target)
-        return [*errors, *(display_values(arm, stationary.q[selected], index) for index in other_joints)]
+    def list_panel_values(stationary: EquilibriumCurve | StationaryPoints, chosen: slice | BoolArray) -> list[FloatArray]:
+        errors = display_errors(curves.law, stationary.q[chosen], stationary.error[chosen], curves.target)
+        return [*errors, *(display_values(arm, stationary.q[chosen], index) for index in other_joints)]
 
-    lines = [
-        report.curves.StationaryCurve(segment.kind.word, display_values(arm, curve.q[span], joint), plot_rows(curve, span))
-        for curve in curves.curves
-        for segment in curve.segments
-        for span in [slice(segment.first, segment.last + 1)]
-    ]
-    surface_points = curves.loose
-    point_lines = [
-        report.curves.StationaryCurve(
-            word, display_values(arm, surface_points.q[selected], joint), plot_rows(surface_points, selected)
-        )
-        for word, selected in (("degenerate", ~surface_points.attracting), ("sink", surface_points.attracting))
-        if selected.any()
-    ]
     values, reached = _reachable_ranges(curves)
-    caption = (
-        f"{arm.name}, {curves.law.name}; undetected lock of {arm.joint_names[joint]}; "
-        f"{len(curves)} curves from {curves.starts} starts"
-        + (f", dots: {len(surface_points)} points sampled from surfaces" if len(surface_points) else "")
-    )
-    return report.curves.stationary_curves_figure(
-        lines, point_lines, labels, label_axis(arm, joint), (values[0], values[-1]), reached, caption
-    )
+    surface_points, drawn_kinds = curves.loose, set()
+    with report.styled_figure(report.WIDTH_IN, 0.9 + 2.5 * len(labels)) as figure:
+        panels = np.atleast_1d(figure.subplots(len(labels), 1, sharex=True))
+        for axes, (lower, upper) in product(panels, reached):
+            axes.axvspan(lower, upper, color=_REACHABLE_COLOR, linewidth=0, zorder=0)
+        for curve in curves.curves:
+            for segment in curve.segments:
+                span, line_style = slice(segment.first, segment.last + 1), get_line_style(segment.kind.word)
+                locked_values = display_values(arm, curve.q[span], joint)
+                drawn_kinds.add(segment.kind.word)
+                for axes, panel_values in zip(panels, list_panel_values(curve, span), strict=True):
+                    axes.plot(*break_at_angle_wraps(locked_values, panel_values), **line_style)
+        for kind, chosen in (("degenerate", ~surface_points.attracting), ("sink", surface_points.attracting)):
+            if chosen.any():
+                locked_values = display_values(arm, surface_points.q[chosen], joint)
+                drawn_kinds.add(kind)
+                color, _, _, marker = report.KIND_STYLES[kind]
+                for axes, panel_values in zip(panels, list_panel_values(surface_points, chosen), strict=True):
+                    axes.plot(locked_values, panel_values, marker, color=color, markersize=2.5, linestyle="none", alpha=0.7)
+        for panel, (axes, label) in enumerate(zip(panels, labels, strict=True)):
+            axes.set(ylabel=label, xlim=(values[0], values[-1]))
+            if panel and label.endswith("deg"):
+                axes.set_ylim(-180, 180)
+                axes.yaxis.set_major_locator(report.MultipleLocator(60))
+        panels[-1].set_xlabel(label_axis(arm, joint))
+        if panels[-1].get_xlabel().endswith("deg"):
+            panels[-1].xaxis.set_major_locator(report.MultipleLocator(30))
+        handles: list[report.Line2D | report.Patch] = [
+            report.Line2D([], [], **get_line_style(kind), label=kind) for kind in report.KIND_STYLES if kind in drawn_kinds
+        ]
+        handles += [report.Patch(color=_REACHABLE_COLOR, label="target within reach")] * bool(reached)
+        figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+        caption = (
+            f"{arm.name}, {curves.law.name}; undetected lock of {arm.joint_names[joint]}; "
+            f"{len(curves)} curves from {curves.starts} starts"
+            + (f", dots: {len(surface_points)} points sampled from surfaces" if len(surface_points) else "")
+        )
+        figure.supxlabel(report.format_label(caption, 200), fontsize=9, color=report.SOFT)
+    return figure
 
 
 def _reachable_ranges(curves: Curves) -> tuple[FloatArray, list[tuple[float, float]]]:
@@ -224,6 +240,18 @@ def _reachable_ranges(curves: Curves) -> tuple[FloatArray, list[tuple[float, flo
         (float(displayed_edges[start]), float(displayed_edges[stop]))
         for start, stop in zip(changes[::2], changes[1::2], strict=True)
     ]
+
+
+def get_line_style(kind: str) -> dict[str, Any]:
+    """Return the style of the line of a kind."""
+    color, width, dashes, _ = report.KIND_STYLES[kind]
+    return {"color": color, "linewidth": width, "linestyle": dashes}
+
+
+def break_at_angle_wraps(x: FloatArray, y: FloatArray, period: float = 360.0) -> tuple[FloatArray, FloatArray]:
+    """Insert NaN where a value wraps around, so that no line crosses the figure."""
+    jumps = np.flatnonzero((np.abs(np.diff(x)) > 0.5 * period) | (np.abs(np.diff(y)) > 0.5 * period)) + 1
+    return np.insert(x, jumps, np.nan), np.insert(y, jumps, np.nan)
 
 
 def display_values(arm: Arm, q: FloatArray, joint: int | np.intp) -> FloatArray:

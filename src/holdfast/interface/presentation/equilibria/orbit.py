@@ -8,7 +8,7 @@ import numpy as np
 
 from holdfast.control.equilibria.limit_cycles import Orbit
 from holdfast.core.formatting import capitalise_first, format_number
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, Header, Presentation, TableSpec
 
 
 def to_dict(orbit: Orbit) -> dict[str, Any]:
@@ -19,11 +19,11 @@ def to_dict(orbit: Orbit) -> dict[str, Any]:
 def present(orbit: Orbit) -> Presentation:
     """Present the period, the motion of each joint over a period, and the range of the errors."""
     period = "" if np.isnan(orbit.period) else f" (period {orbit.period:.4g} s)"
-    columns = [
-        Header("joint", "joint"),
-        Header("amplitude", "range, rad (or m)", aligned=False),
-        Header("windings", "full revolutions"),
-        Header("rate", "mean rate, rad/s (or m/s)", aligned=False),
+    columns: list[Column] = [
+        "joint",
+        Header("range, rad (or m)", aligned=False),
+        "full revolutions",
+        Header("mean rate, rad/s (or m/s)", aligned=False),
     ]
     rows = zip(range(1, len(orbit.rates) + 1), orbit.amplitude, orbit.windings, orbit.rates, strict=True)
     ranges = (

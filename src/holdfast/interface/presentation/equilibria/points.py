@@ -14,7 +14,7 @@ from holdfast.control.equilibria.system import idle_joints
 from holdfast.control.simulation.errors import display_errors, error_kinds
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.arm.view import build_view_section
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, Header, Presentation, TableSpec
 from holdfast.interface.presentation.simulation.errors import format_errors
 from holdfast.interface.report.page import Section
 
@@ -128,12 +128,12 @@ def _tabulate_points(points: StationaryPoints) -> TableSpec:
     """Tabulate the first points of each kind, one row for each; joints in degrees or m."""
     joints, kinds, attracting = points.law.arm.joints, points.kinds, points.attracting
     errors = display_errors(points.law, points.q, points.error, points.target)
-    columns = [
-        Header("kind", "kind"),
-        *[Header(joint.name, f"{joint.name}, {joint.display_unit[1]}", digits=7) for joint in joints],
-        *[Header(kind.key, f"{kind.text}, {kind.unit}", aligned=False) for kind in error_kinds(points.law)],
-        Header("eigenvalues", "eigenvalues, Ke"),
-        Header("notes", ""),
+    columns: list[Column] = [
+        "kind",
+        *[Header(f"{joint.name}, {joint.display_unit[1]}", digits=7) for joint in joints],
+        *[Header(f"{kind.text}, {kind.unit}", aligned=False) for kind in error_kinds(points.law)],
+        "eigenvalues, Ke",
+        "",
     ]
     rows = []
     for index, kind in enumerate(kinds):

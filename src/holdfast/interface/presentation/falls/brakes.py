@@ -11,7 +11,7 @@ from holdfast.control.falls.brake_curve import BrakeComparison
 from holdfast.core.formatting import format_number
 from holdfast.interface import report
 from holdfast.interface.presentation.falls.motion import format_distance
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 
 
 def to_dict(comparison: BrakeComparison) -> dict[str, Any]:
@@ -24,7 +24,7 @@ def present(comparison: BrakeComparison) -> Presentation:
     """Present the drops over delay and torque, and the torque that holds the arm at rest."""
     row, column = np.unravel_index(np.argmin(comparison.drop), comparison.drop.shape)
     delays = [f"{1000 * after:g} ms" for after in comparison.after]
-    columns = [Header("brake", "brake torque"), *(Header(delay, f"after {delay}", "mm", aligned=False) for delay in delays)]
+    columns: list[Column] = ["brake torque", *(Header(f"after {delay}", "mm", aligned=False) for delay in delays)]
     rows = [
         (name, *(1000 * drops))
         for name, drops in zip(

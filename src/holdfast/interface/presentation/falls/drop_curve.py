@@ -46,7 +46,7 @@ def present(curve: DropCurve) -> Presentation:
     times = [("never" if time is None else f"{time:.3g} s") for _, time in rows]
     table = TableSpec(
         "Time for which a buffered supply must drive the arm along this motion",
-        [Header("limit_mm", "until the drop stays below", "mm"), Header("hold_up", "hold-up time")],
+        [Header("until the drop stays below", "mm"), "hold-up time"],
         [(limit, time) for (limit, _), time in zip(rows, times, strict=True)],
     )
     return Presentation(
@@ -65,7 +65,7 @@ def present(curve: DropCurve) -> Presentation:
                 partial(draw_curves, {"": curve}), "Over time", "Drop of the tool for a power loss at each instant."
             )
         },
-        sections=partial(_build_film, curve),
+        sections=partial(build_film, curve),
         method=[
             ("Instants", f"{len(curve.time)}; between them nothing was simulated"),
             ("Joint rates", "given" if curve.rates_from == "given" else "slopes of parabolas through 5 rows"),
@@ -91,7 +91,8 @@ def draw_curves(curves: dict[str, DropCurve]) -> report.Figure:
     return report.motions.motion_figure([panel], caption, "instant of the power loss, s", panel_width=report.WIDTH_IN)
 
 
-def _build_film(curve: DropCurve) -> list[Section]:
+def build_film(curve: DropCurve, title: str = "The motion") -> list[Section]:
+    """Build the view of the motion with the drop of the tool for a power loss at each instant."""
     readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
-    caption = "The motion, with the drop of the tool for a power loss at each instant."
-    return [build_view_section("The motion", curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]
+    caption = f"{title}, with the drop of the tool for a power loss at each instant."
+    return [build_view_section(title, curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]

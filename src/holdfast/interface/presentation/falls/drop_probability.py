@@ -52,7 +52,7 @@ def present(result: DropProbability) -> Presentation:
     )
     worst = result.rank_worst(_WORST_ROWS)
     factors = [joint.display_unit for joint in arm.joints]
-    joints = [Header(joint.name, f"{joint.name}, {unit}") for joint, (_, unit) in zip(arm.joints, factors, strict=True)]
+    joints = [f"{joint.name}, {unit}" for joint, (_, unit) in zip(arm.joints, factors, strict=True)]
     rows = [
         (int(row), result.value[row], *(q * factor for q, (factor, _) in zip(result.fall.q[row], factors, strict=True)))
         for row in worst
@@ -64,12 +64,10 @@ def present(result: DropProbability) -> Presentation:
         lines=[f"{format_count(len(result.value), 'fall')} simulated from rest, of {result.drawn:,} drawn configurations."],
         facts=[Fact("fraction", interval, style="percent", phrase=f"{name} at or below {limit}, estimated")],
         tables=[
-            TableSpec(
-                f"Quantiles of the {name}", [Header("level", "falls"), Header("value", "at or below", result.unit)], quantiles
-            ),
+            TableSpec(f"Quantiles of the {name}", ["falls", Header("at or below", result.unit)], quantiles),
             TableSpec(
                 "Worst configurations",
-                [Header("row", "sample"), Header("value", name, result.unit), *joints],
+                ["sample", Header(name, result.unit), *joints],
                 rows,
                 on_console=False,
             ),

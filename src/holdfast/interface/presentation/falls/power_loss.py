@@ -15,7 +15,17 @@ from holdfast.core.status import Status
 from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import tabulate_contacts
 from holdfast.interface.presentation.falls import motion
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.holding import hold_check
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    FigureSpec,
+    Header,
+    Notice,
+    Presentation,
+    TableSpec,
+    make_headers,
+)
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.holding.static_check import holds
 from holdfast.model.arm.friction import Friction
@@ -28,7 +38,7 @@ DROP_QUANTILES = (0.5, 0.9, 0.99)
 WORST_ROWS = 10
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
-_DROP_COLUMN = Header("drop", "drop of the tool", "mm", aligned=False)
+_DROP_COLUMN = Header("drop of the tool", "mm", aligned=False)
 _FIGURE_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
@@ -57,10 +67,8 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
 def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> Presentation:
     """Present the fall, or the distribution of several falls.
 
-    Args:
-        fall: One fall or several.
-        compared: Falls from the same state under other conditions, by the name of the condition.
-        band: Falls from the same state without friction and with twice the friction.
+    ``compared`` are falls from the same state under other conditions, by the name of the condition, and ``band`` without
+    friction and with twice the friction.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
     is_falling = single and fall.outcome not in ("holds", "unknown")
@@ -164,12 +172,12 @@ def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
-    columns = [Header("time", "after"), _DROP_COLUMN, Header("speed", "speed of the tool", "m/s")]
+    columns: list[Column] = ["after", _DROP_COLUMN, Header("speed of the tool", "m/s")]
     title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
     tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
     if others:
         rows = [(label, 1000 * float(other.drop), str(other.outcome)) for label, other in others.items()]
-        columns = [Header("condition", "condition"), _DROP_COLUMN, Header("outcome", "outcome")]
+        columns = ["condition", _DROP_COLUMN, "outcome"]
         tables.append(TableSpec("The same state under other conditions", columns, rows))
     physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
     return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
@@ -179,28 +187,22 @@ def _tabulate_joints(fall: PowerLoss) -> TableSpec:
     arm, start_time = fall.arm, min(START_S, fall.duration)
     check = holds(arm, fall.q, free=fall.free, friction=Friction(**vars(fall.friction)), stops=fall.stops)
     accelerations = (fall.rates_at(start_time) - fall.rates) / start_time
-    torques = ["N" if joint.prismatic else "N m" for joint in arm.joints]
-    labels = {"torque": "gravity torque", "available": "friction at rest", "margin": "margin"}
-    columns = [
-        Header("joint", "joint"),
-        *(Header(key, label, torques) for key, label in labels.items()),
-        Header("acceleration", "starts with", [f"{joint.unit}/s^2" for joint in arm.joints]),
-        Header("note", ""),
-    ]
-    places = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops"}
-    notes = [places.get(int(stop), "") if k in fall.free else "held" for k, stop in enumerate(check.stop)]
+    torques = [hold_check.format_torque_unit(joint) for joint in arm.joints]
+    torque_columns = make_headers("gravity torque", "friction at rest", "margin", unit=torques)
+    acceleration = Header("starts with", [f"{joint.unit}/s^2" for joint in arm.joints])
+    notes = [hold_check.STOP_PHRASES[int(stop)] if k in fall.free else "held" for k, stop in enumerate(check.stop)]
     numbers = zip(check.torque, check.available, check.available - check.need, accelerations, strict=True)
     rows = [(name, *values, note) for name, values, note in zip(arm.joint_names, numbers, notes, strict=True)]
-    return TableSpec("Joints at the power loss", columns, rows)
+    return TableSpec("Joints at the power loss", ["joint", *torque_columns, acceleration, ""], rows)
 
 
 def _tabulate_worst(fall: PowerLoss) -> TableSpec:
-    columns = [
-        Header("row", "row"),
+    columns: list[Column] = [
+        "row",
         _DROP_COLUMN,
-        Header("released", "energy released", "J", aligned=False),
-        Header("error", "estimated error", "mm", digits=3, aligned=False),
-        Header("outcome", "outcome"),
+        Header("energy released", "J", aligned=False),
+        Header("estimated error", "mm", digits=3, aligned=False),
+        "outcome",
     ]
     worst = np.argsort(-np.nan_to_num(fall.drop, nan=-np.inf))[:WORST_ROWS]
     rows = [(int(k), 1000 * fall.drop[k], fall.released[k], 1000 * fall.error[k], str(fall.outcome[k])) for k in worst]

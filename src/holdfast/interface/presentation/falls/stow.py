@@ -7,7 +7,7 @@ from typing import Any
 
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.arm.view import build_view_section
-from holdfast.interface.presentation.falls.drop_curve import draw_curves
+from holdfast.interface.presentation.falls.drop_curve import build_film, draw_curves
 from holdfast.interface.presentation.falls.motion import describe_drop, format_distance, list_friction
 from holdfast.interface.presentation.holding import hold_check
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
@@ -116,7 +116,4 @@ def _build_view(result: StowPose | StowPath) -> list[Section]:
     if isinstance(result, StowPose) or result.curve is None:
         stow = result if isinstance(result, StowPose) else result.stow
         return [build_view_section("The stow configuration", stow.arm, stow.q, "The arm in its stow configuration.")]
-    curve = result.curve
-    readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
-    caption = "The path to the stow configuration, with the drop for a power loss at each instant."
-    return [build_view_section("The path", curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]
+    return build_film(result.curve, "The path to the stow configuration")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from holdfast.core.formatting import format_count
-from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Presentation, TableSpec
 from holdfast.response.faults.batch import FaultBatch
 
 
@@ -35,5 +35,5 @@ def present(batch: FaultBatch) -> Presentation:
         "Sampled faults",
         f"{sum(fault_counts)} faults in {episodes}.",
         lines=[omission] if batch.left_out else [],
-        tables=[TableSpec("Faults", [Header("episode", "episode"), Header("id", "id"), Header("fault", "fault")], rows)],
+        tables=[TableSpec("Faults", ["episode", "id", "fault"], rows)],
     )

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import format_count, format_number, format_percent
-from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, make_headers
 from holdfast.kinematics.holding.static_check import HoldCheck
+from holdfast.model.arm.machine import Joint
 
-_STOP_WORDS = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops", 0: ""}
+STOP_PHRASES = {-1: "at its lower stop", 1: "at its upper stop", 2: "between two stops", 0: ""}
 
 
 def to_dict(check: HoldCheck) -> dict[str, Any]:
@@ -62,10 +63,13 @@ def present(check: HoldCheck) -> Presentation:
 
 
 def _format_torques(check: HoldCheck, values: Any) -> list[str]:
-    return [f"{format_number(value, 4)} {_unit(joint)}" for value, joint in zip(values, check.arm.joints, strict=True)]
+    return [
+        f"{format_number(value, 4)} {format_torque_unit(joint)}" for value, joint in zip(values, check.arm.joints, strict=True)
+    ]
 
 
-def _unit(joint: Any) -> str:
+def format_torque_unit(joint: Joint) -> str:
+    """Return the unit of the torque or force of a joint."""
     return "N" if joint.prismatic else "N m"
 
 
@@ -91,7 +95,7 @@ def _count_answer(check: HoldCheck) -> str:
 
 
 def _list_facts(check: HoldCheck) -> list[Fact]:
-    unit = _unit(check.arm.joints[check.joint])
+    unit = format_torque_unit(check.arm.joints[check.joint])
     effort = "unknown, because an effort limit is missing" if np.isnan(check.least_effort) else float(check.least_effort)
     facts = [
         Fact("margin", float(check.margin), unit, phrase="smallest margin of a free joint"),
@@ -108,32 +112,19 @@ def _list_facts(check: HoldCheck) -> list[Fact]:
 
 
 def _tabulate_joints(check: HoldCheck) -> TableSpec:
-    units = [_unit(joint) for joint in check.arm.joints]
-    columns = [
-        Header("joint", "joint"),
-        *(
-            Header(key, label, units)
-            for key, label in (("torque", "gravity torque"), ("need", "needed"), ("available", "available"))
-        ),
-        Header("note", ""),
-    ]
+    units = [format_torque_unit(joint) for joint in check.arm.joints]
+    torques = make_headers("gravity torque", "needed", "available", unit=units)
     rows = []
     for k, name in enumerate(check.arm.joint_names):
         gives_way = k in check.free and check.available[k] < check.need[k]
-        notes = ["" if k in check.free else "held", _STOP_WORDS[int(check.stop[k])], "gives way" if gives_way else ""]
+        notes = ["" if k in check.free else "held", STOP_PHRASES[int(check.stop[k])], "gives way" if gives_way else ""]
         rows.append((name, check.torque[k], check.need[k], check.available[k], ", ".join(filter(None, notes))))
-    return TableSpec("Balance of each joint", columns, rows)
+    return TableSpec("Balance of each joint", ["joint", *torques, ""], rows)
 
 
 def _tabulate_rows(check: HoldCheck) -> TableSpec:
-    columns = [
-        Header("row", "row"),
-        Header("holds", "holds"),
-        Header("joint", "joint with the smallest margin"),
-        Header("margin", "margin, N m (N)"),
-        Header("least_effort", "least effort", style="percent"),
-    ]
+    effort = Header("least effort", style="percent")
     names = [*check.arm.joint_names, "none"]  # the index -1 is the last one
     cells = zip(check.holds, check.joint, check.margin, check.least_effort, strict=True)
     rows = [(row, bool(held), names[k], margin, effort) for row, (held, k, margin, effort) in enumerate(cells)]
-    return TableSpec("Configurations", columns, rows)
+    return TableSpec("Configurations", ["row", "holds", "joint with the smallest margin", "margin, N m (N)", effort], rows)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from holdfast.core.formatting import format_percent
-from holdfast.interface.presentation.presentation import Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, Presentation, TableSpec
 from holdfast.kinematics.index_bounds.manipulability_bounds import UpperBound, UpperBoundTable, count_rows, failure_phrase
 from holdfast.kinematics.index_bounds.theorems import THEOREM_TEXTS
 
@@ -44,14 +44,14 @@ def present(bounds: UpperBound | UpperBoundTable) -> Presentation:
 
 
 def _tabulate_bounds(bounds: Sequence[UpperBound]) -> TableSpec:
-    columns = [
-        *(Header(name, name) for name in ("joints", "rows", "failures")),
-        Header("bound", "bound", digits=6),
-        Header("bound_by", "theorem"),
-        Header("best_known", "best known", digits=6),
-        Header("attained", "attained"),
-        Header("closed_form", "closed form"),
-        Header("gap", "gap", style="percent"),
+    columns: list[Column] = [
+        *("joints", "rows", "failures"),
+        Header("bound", digits=6),
+        Header("theorem", key="bound_by"),
+        Header("best known", digits=6, key="best_known"),
+        "attained",
+        Header("closed form", key="closed_form"),
+        Header("gap", style="percent"),
     ]
     rows = [(b.n, b.m, b.k, b.bound, b.bound_by, b.best_known, b.is_attained, b.closed_form or None, b.gap) for b in bounds]
     return TableSpec("", columns, rows)

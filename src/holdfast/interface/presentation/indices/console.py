@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.core.formatting import format_number
 from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
-from holdfast.interface.presentation.arm.console import print_limit_violations
+from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.presentation import Fact, Presentation
 from holdfast.interface.presentation.printing import format_column, format_positions
 from holdfast.kinematics.indices.index import Index
@@ -107,6 +107,11 @@ def show_susceptibility(measure: Susceptibility, q: FloatArray, out: Console) ->
     _show_gradient("value", results, out)
 
 
+def display_unit(objective: Objective) -> str:
+    """Return the unit of an objective, or an empty text if it has none that could be shown."""
+    return "" if objective.unit in ("1", "mixed") else objective.unit
+
+
 def _unit_suffix(measure: Objective) -> str:
     from rich.markup import escape
 
@@ -127,7 +132,8 @@ def _show_measure(
 
     out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
     out.print(verdict, soft_wrap=True)
-    print_limit_violations(measure.arm, q, out)
+    for notice in list_limit_violations(measure.arm, q):
+        out.print(f"[yellow]{escape(notice.text)}[/]", soft_wrap=True)
     table = BandedTable(*head)
     for name, *cells in rows:
         table.add_row(escape(name), *cells)

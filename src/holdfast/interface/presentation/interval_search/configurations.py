@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Presentation, TableSpec
 from holdfast.kinematics.interval_search.search import Configurations
 
 
@@ -25,7 +25,7 @@ def present(configurations: Configurations) -> Presentation:
     """Present the number of configurations, whether these are all, and the search effort."""
     arm, found = configurations.arm, configurations
     joints = list(zip(arm.joint_names, arm.prismatic, strict=True))
-    columns = [Header("number", ""), *[Header(name, f"{name}, {'m' if slides else 'deg'}") for name, slides in joints]]
+    columns = ["", *[f"{name}, {'m' if slides else 'deg'}" for name, slides in joints]]
     rows = [(index, *q) for index, q in enumerate(np.where(arm.prismatic, found.q, np.rad2deg(found.q)).tolist(), 1)]
     open_phrase = f", {found.open:,} of them undecided and up to {2 * found.widest:.2g} wide" if found.open else ""
     blocked_phrase = f", {found.blocked:,} of them blocked and excluded" if found.blocked else ""

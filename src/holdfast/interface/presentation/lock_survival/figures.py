@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 
 from holdfast.core.typing import FloatArray
@@ -59,12 +56,24 @@ def draw_map(survival: LockSurvival) -> report.Figure:
         values[1:, pose_index, bins[order]] = 100.0 * survives[order].T
     path = display_position(survival.q[:, joint])
     path[1:][np.abs(np.diff(path)) > (upper - lower) / 2] = np.nan  # the angle wraps around at pi
-    panels = [
-        _StripPanel(values[0], "all locks"),
-        *(_StripPanel(panel, f"lock of {name}") for panel, name in zip(values[1:], survival.arm.joint_names, strict=True)),
-    ]
-    label, ylabel = "survivable, %", f"{survival.arm.joint_names[joint]}, {unit}"
-    return _draw_strips(survival.time, edges, panels, path, scale=report.Scale(0.0, 100.0), label=label, ylabel=ylabel)
+    titles, scale = ["all locks", *(f"lock of {name}" for name in survival.arm.joint_names)], report.Scale(0.0, 100.0)
+    column_count = min(4, len(titles))
+    row_count = -(-len(titles) // column_count)
+    with report.styled_figure(report.WIDTH_IN, 2.2 * row_count + 1.1) as figure:
+        axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
+        for panel_axes in axes.ravel()[len(titles) :]:
+            panel_axes.set_visible(False)
+        for index, (panel_axes, title) in enumerate(zip(axes.ravel(), titles, strict=False)):
+            _draw_strip(panel_axes, survival.time, edges, values[index], path, scale)
+            panel_axes.set_title(report.format_label(title), fontsize=9)
+            if index % column_count == 0:
+                panel_axes.set_ylabel(f"{survival.arm.joint_names[joint]}, {unit}")
+            if index >= len(titles) - column_count:
+                panel_axes.set_xlabel("time, s")
+                panel_axes.tick_params(labelbottom=True)
+        bar = figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015)
+        report.label_color_bar(bar, "survivable, %", scale)
+    return figure
 
 
 def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[FloatArray, FloatArray]:
@@ -80,74 +89,15 @@ def _sample_curves(search: SearchBounds, pose_index: int, joint: int) -> tuple[F
     return np.concatenate([values, interpolated.ravel()]), search.survives[pose_index][order]
 
 
-# ---- strips --------------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _StripPanel:
-    """Values over time and joint position.
-
-    Attributes:
-        values: Values (T, B), one for each time and bin; NaN where there is none.
-        title: Title of the map.
-    """
-
-    values: FloatArray
-    title: str
-
-
-def _draw_strips(
-    time: FloatArray,
-    edges: FloatArray,
-    panels: Sequence[_StripPanel],
-    path: FloatArray,
-    *,
-    scale: report.Scale,
-    label: str,
-    ylabel: str,
-) -> report.Figure:
-    """Draw maps in a grid, on one scale.
-
-    Args:
-        time: Times (T,), s.
-        edges: Edges (B + 1,) of the bins, in the unit of ``ylabel``.
-        panels: The maps.
-        path: Positions (T,) of the joint on the motion, in the same unit.
-        scale: Color scale of all maps.
-        label: Label of the color bar.
-        ylabel: Label of the joint axis, with its unit.
-    """
-    column_count = min(4, len(panels))
-    row_count = -(-len(panels) // column_count)
-    with report.styled_figure(report.WIDTH_IN, 2.2 * row_count + 1.1) as figure:
-        axes = figure.subplots(row_count, column_count, squeeze=False, sharex=True, sharey=True)
-        for panel_axes in axes.ravel()[len(panels) :]:
-            panel_axes.set_visible(False)
-        for index, (panel_axes, panel) in enumerate(zip(axes.ravel(), panels, strict=False)):
-            _draw_strip(panel_axes, time, edges, panel, path, scale)
-            if index % column_count == 0:
-                panel_axes.set_ylabel(ylabel)
-            if index >= len(panels) - column_count:
-                panel_axes.set_xlabel("time, s")
-                panel_axes.tick_params(labelbottom=True)
-        report.label_color_bar(
-            figure.colorbar(scale.mappable, ax=list(axes.ravel()), shrink=0.8, aspect=14 * row_count, pad=0.015), label, scale
-        )
-    return figure
-
-
 def _draw_strip(
-    axes: report.Axes, time: FloatArray, edges: FloatArray, panel: _StripPanel, path: FloatArray, scale: report.Scale
+    axes: report.Axes, time: FloatArray, edges: FloatArray, values: FloatArray, path: FloatArray, scale: report.Scale
 ) -> None:
-    half_steps = np.diff(time) / 2
-    time_edges = np.concatenate([[time[0]], time[:-1] + half_steps, [time[-1]]])
-    mappable = scale.mappable
+    """Draw values (T, B) over time (T,) and the bins of a joint's position, and the position (T,) on the motion."""
+    time_edges = np.concatenate([[time[0]], time[:-1] + np.diff(time) / 2, [time[-1]]])
     axes.set_facecolor(EMPTY_COLOR)
-    axes.pcolormesh(
-        time_edges, edges, mappable.to_rgba(panel.values.T) * np.isfinite(panel.values.T)[..., None], rasterized=True
-    )
+    colors = scale.mappable.to_rgba(values.T) * np.isfinite(values.T)[..., None]
+    axes.pcolormesh(time_edges, edges, colors, rasterized=True)
     axes.plot(time, path, color="white", linewidth=2.6)
     axes.plot(time, path, color=INK, linewidth=1.3)
-    axes.set_title(report.format_label(panel.title), fontsize=9)
     axes.grid(visible=False)
     axes.set_xlim(time[0], time[-1])

@@ -12,7 +12,7 @@ from holdfast.core.formatting import capitalise_first, format_count, format_numb
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.lock_survival.figures import draw_jump, draw_map, draw_survival
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Presentation, TableSpec, make_headers
 from holdfast.interface.presentation.renderers import write_json
 from holdfast.interface.report.page import Section
 from holdfast.response.lock_survival.injection import LockTests
@@ -225,14 +225,10 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     """Tabulate the survival of each joint, and that of other motions."""
     lock_fractions = survival.rates.each / survival.rates.total
     joint_results = zip(survival.by_joint.items(), lock_fractions, survival.jump.linear.T, strict=True)
+    fractions = make_headers("fraction of all locks", "of its locks survived", style="percent")
     joints = TableSpec(
         "Survival by joint",
-        [
-            Header("joint", "joint"),
-            Header("part", "fraction of all locks", style="percent"),
-            Header("survived", "of its locks survived", style="percent"),
-            Header("loss", "largest loss of tool velocity"),
-        ],
+        ["joint", *fractions, "largest loss of tool velocity"],
         [
             [name, float(fraction), survived, _format_largest(velocity_loss, survival.time)]
             for (name, survived), fraction, velocity_loss in joint_results
@@ -241,11 +237,7 @@ def _build_tables(survival: LockSurvival) -> list[TableSpec]:
     motion_name = "most locks survived" if survival.found is not None else "this motion"
     motions = TableSpec(
         "Other motions along the path",
-        [
-            Header("motion", "motion"),
-            Header("survival", "locks survived", style="percent"),
-            Header("off", "samples off the path", style="percent"),
-        ],
+        ["motion", *make_headers("locks survived", "samples off the path", style="percent")],
         [
             [motion_name, survival.survival, 0.0],
             *([baseline.name, baseline.survival, baseline.off] for baseline in survival.comparisons),

@@ -11,8 +11,18 @@ import numpy as np
 from holdfast.core.formatting import capitalise_first, format_as_given
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.path_following.trajectory_figures import TrajectorySections, draw_figure
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.indices.console import display_unit
+from holdfast.interface.presentation.path_following.trajectory_figures import build_sections, draw_figure
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    FigureSpec,
+    Notice,
+    Presentation,
+    TableSpec,
+    format_value,
+    make_headers,
+)
 from holdfast.kinematics.path_following.slow_motion import SlowMotion
 from holdfast.kinematics.path_following.trajectory import Trajectory
 
@@ -59,7 +69,7 @@ def to_dict(trajectory: Trajectory) -> dict[str, Any]:
 def present(trajectory: Trajectory) -> Presentation:
     """Present whether the end effector stays on its path, the objective along it, and the events."""
     objective, arm = trajectory.objective, trajectory.arm
-    unit = "" if objective.unit in ("1", "mixed") else objective.unit
+    unit = display_unit(objective)
     worst_text = f"The worst {objective.name} on the way is {format_value(trajectory.worst, unit=unit)}."
     if trajectory.on_path:
         answer = f"The end effector stays on its path (largest error {trajectory.tool_error}). {worst_text}"
@@ -75,12 +85,7 @@ def present(trajectory: Trajectory) -> Presentation:
         lines.append(_compose_verdict(trajectory, trajectory.torque_bound, slowness))
         tables.append(_tabulate_slowness(trajectory, slowness))
     if trajectory.events:
-        columns = [
-            Header("kind", "event"),
-            Header("start_s", "from, s", aligned=False),
-            Header("end_s", "to, s", aligned=False),
-            Header("text", ""),
-        ]
+        columns: list[Column] = ["event", *make_headers("from, s", "to, s", aligned=False), ""]
         events = [
             (event.kind, event.start, event.end, capitalise_first(event.text.split(": ", 1)[1])) for event in trajectory.events
         ]
@@ -97,7 +102,7 @@ def present(trajectory: Trajectory) -> Presentation:
         facts=_list_facts(trajectory, unit),
         tables=tables,
         figures={"motion": FigureSpec(partial(draw_figure, trajectory), on_page=False, saved=False)},
-        sections=lambda: TrajectorySections(trajectory).build(),
+        sections=partial(build_sections, trajectory),
         method=[
             ("Law", trajectory.method),
             ("Objective", f"{objective.name}, {objective.better} is better"),
@@ -146,9 +151,8 @@ def _tabulate_values(trajectory: Trajectory, unit: str) -> TableSpec:
     if trajectory.best_value is not None:
         values["best of each pose"] = trajectory.best_value
     rows = [(name, *_summarize_values(numbers).values()) for name, numbers in values.items()]
-    columns = [Header(name, name) for name in _summarize_values(trajectory.value)]
     title = f"{capitalise_first(trajectory.objective.name)} along the path"
-    return TableSpec(title, [Header("method", ""), *columns], rows)
+    return TableSpec(title, ["", *_summarize_values(trajectory.value)], rows)
 
 
 def _summarize_values(values: FloatArray) -> dict[str, float]:
@@ -175,12 +179,7 @@ def _compose_verdict(trajectory: Trajectory, bound: float, slowness: Sequence[Sl
 
 def _tabulate_slowness(trajectory: Trajectory, slowness: Sequence[SlowMotion]) -> TableSpec:
     """Tabulate the time scale that each joint requires."""
-    columns = [
-        Header("joint", "joint"),
-        Header("time_scale", "time scale"),
-        Header("duration_s", "duration, s"),
-        Header("decided_at", "critical instant"),
-    ]
+    columns = ["joint", "time scale", "duration, s", "critical instant"]
     rows = []
     for name, joint_slowness in zip(trajectory.arm.joint_names, slowness, strict=True):
         scale, instant = joint_slowness.time_scale, trajectory.time[joint_slowness.worst_time_index]

@@ -15,7 +15,7 @@ from holdfast.core.formatting import capitalise_first, format_number, format_per
 from holdfast.interface import report
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.physics.execution import SERVO_QUANTITIES
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation, TableSpec
 from holdfast.interface.presentation.simulation import runs as simulation
 from holdfast.interface.presentation.simulation.errors import format_errors
 from holdfast.model.collision.contacts import Contact
@@ -52,7 +52,7 @@ def present(run: PhysicalRun) -> Presentation:
     saturated_text = ", ".join(f"{name} {format_percent(fraction)}" for name, fraction in saturation if fraction > 0)
     if saturated_text:
         notices.append(Notice(f"Motors are at their torque limit for a part of the time: {saturated_text}."))
-    columns = [Header("", ""), Header("kinematic", "kinematic"), Header("mujoco", "in MuJoCo")]
+    columns = ["", "kinematic", "in MuJoCo"]
     caption = (
         "Thick lines: kinematic simulation. Thin lines: with masses and joint servos. Right: tracking error of the joints."
     )

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.core.formatting import capitalise_first
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, Header, Presentation, TableSpec
 from holdfast.response.recovery.proofs.explanation import PoseExplanation, PoseVerdict
 
 
 def present(explanation: PoseExplanation) -> Presentation:
     """Present the verdict, the proof, the nearest pose, and the condition that prevents the pose."""
     arm, is_reachable = explanation.arm, explanation.verdict == PoseVerdict.REACHABLE
-    columns = [Header("joint", "joint"), Header("value", "value", [joint.unit for joint in arm.joints], style="angle")]
+    columns: list[Column] = ["joint", Header("value", [joint.unit for joint in arm.joints], style="angle")]
     title = "Configuration that meets the pose" if is_reachable else "Configuration of the nearest pose found"
     return Presentation(
         f"Is the pose reachable for {arm.name}?",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -12,7 +11,7 @@ from holdfast.core.formatting import capitalise_first, format_count, format_numb
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Presentation, TableSpec, make_headers
 from holdfast.interface.presentation.recovery.remaining_workspace import present as present_remainder
 from holdfast.interface.presentation.renderers import sentences, write_json
 from holdfast.interface.report.page import Section
@@ -218,7 +217,7 @@ def _tabulate_joints(recovery: Recovery) -> TableSpec:
     factors, units = zip(*(joint.display_unit for joint in recovery.arm.joints), strict=True)
     start, end = np.array(factors) * configurations
     marks = [recovery.degraded.mark(name) for name in recovery.arm.joint_names]
-    columns = [Header("joint", "joint"), Header("start", "start", units), Header("end", "end", units), Header("mark", "")]
+    columns: list[Column] = ["joint", *make_headers("start", "end", unit=units), ""]
     rows = list(zip(recovery.arm.joint_names, start.tolist(), end.tolist(), marks, strict=True))
     return TableSpec("Joint positions", columns, rows)
 
@@ -267,27 +266,14 @@ def _draw_motion(recovery: Recovery) -> report.Figure:
     start, *ghosts, final = arm.frames(
         np.vstack([recovery.at, ghost_configurations, recovery.q[-1] if has_motion else recovery.at])
     )[..., :3, 3]
-    # The box widens the view so that it contains everything that is drawn by hand below.
-    drawn_points = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
-    bounds = np.array([drawn_points.min(axis=0), drawn_points.max(axis=0)])
-    arm_scene = report.Scene(
-        points,
-        np.linspace(0, 100, len(points)),
-        np.zeros((0, 3)),
-        chain=final,
-        nodes=final[1:-1],
-        square=arm.prismatic,
-        box=bounds,
-    )
-    views = choose_side_and_top_views(arm_scene.extent) or [SIDE_VIEW]
-    arm_scene = replace(arm_scene, box=None)
-    extent_scene = report.Scene(drawn_points, np.zeros(len(drawn_points)), points, chain=final)
-    scale = report.Scale(0.0, 100.0)
+    arm_scene = report.Scene(points, np.linspace(0, 100, len(points)), chain=final, square=arm.prismatic)
+    goals = [] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]]
+    extent = report.Scene(np.concatenate([points, start, *ghosts, final, *goals])).extent
+    views, scale = choose_side_and_top_views(extent) or [SIDE_VIEW], report.Scale(0.0, 100.0)
     panel_width = 4.1 if len(views) > 1 else 5.0
-    spans, height = report.scenes.fit_view_spans(extent_scene, views, panel_width, 2.4, 4.8)
+    spans, height = report.scenes.fit_view_spans(extent, views, panel_width, 2.4, 4.8)
     with report.styled_figure(report.WIDTH_IN if len(views) > 1 else panel_width + 2.6, height + 1.7) as figure:
         panels = figure.subplots(1, len(views), squeeze=False)[0]
-        center = extent_scene.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
             for index, ghost in enumerate(ghosts):
                 axes.plot(
@@ -297,15 +283,8 @@ def _draw_motion(recovery: Recovery) -> report.Figure:
                 axes.plot(
                     *view.project(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="start"
                 )
-            report.scenes.draw_view(
-                axes,
-                arm_scene,
-                view,
-                scale,
-                report.scenes.choose_dot_area(arm_scene, views, panel_width / spans[0]),
-                spans,
-                panel_width,
-            )
+            dot_area = report.scenes.choose_dot_area(arm_scene, views, panel_width / spans[0])
+            report.scenes.draw_view(axes, arm_scene, view, scale, dot_area, spans, panel_width, extent.mean(axis=0))
             locked_at_start = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             locked_at_end = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
             axes.plot(*view.project(locked_at_start).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
@@ -316,10 +295,6 @@ def _draw_motion(recovery: Recovery) -> report.Figure:
                 axes.plot(
                     *goal_point, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the tool"
                 )
-            center_x, center_y = view.project(center)
-            axes.set(
-                xlim=(center_x - spans[0] / 2, center_x + spans[0] / 2), ylim=(center_y - spans[1] / 2, center_y + spans[1] / 2)
-            )
         if has_motion:
             report.scenes.add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
         report.legend_below(figure, panels[0], 5)

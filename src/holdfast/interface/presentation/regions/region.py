@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from holdfast.interface.presentation.presentation import Fact, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, Presentation, TableSpec, make_headers
 from holdfast.kinematics.regions.region import Region
 
 _BOX_COLUMNS = (("x", "m"), ("y", "m"), ("z", "m"), ("yaw", "deg"), ("pitch", "deg"), ("roll", "deg"))
@@ -31,6 +31,6 @@ def present(region: Region) -> Presentation:
         bounds = np.array([center - size / 2, center + size / 2])
         bounds = np.round(np.degrees(bounds) if unit == "deg" else bounds, 9) + 0.0
         rows.append((f"{name}{unit and ', '}{unit}", *bounds))
-    head = Header("parameter", "" if region.kind in ("box", "cone") else "rad or m")
-    columns = [head, Header("from", "from", aligned=False), Header("to", "to", aligned=False)]
-    return Presentation(title, title, lines=[region.describe()], tables=[TableSpec("", columns, rows)])
+    head = "" if region.kind in ("box", "cone") else "rad or m"
+    table = TableSpec("", [head, *make_headers("from", "to", aligned=False)], rows)
+    return Presentation(title, title, lines=[region.describe()], tables=[table])

@@ -22,7 +22,7 @@ def format_errors(law: Law, position: float, angle: float) -> str:
     return " and ".join(parts)
 
 
-def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, float], run_index: int = 0) -> list[Fact]:
+def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, float], run_index: int) -> list[Fact]:
     """Return the errors of one run; ``smallest`` are the smallest errors found for the failed arm, m and rad."""
     law, unit = runs.law, runs.unit
     event = "after the lock" if np.isfinite(np.atleast_2d(runs.lock_time)[run_index]).any() else "after the start"
@@ -42,13 +42,9 @@ def list_error_facts(runs: Runs, history: ErrorHistory, smallest: tuple[float, f
         text = f"{format_number(np.rad2deg(angle.angle))}°{time_notes[1]}"
         label = f"largest angle from the target {event}"
         facts.append(Fact(label, text, phrase=label if angle.angle > REACHED_ERROR else ""))
-    facts += [
-        Fact(
-            f"error {format_delay(later_error, history)} {unit} {event}",
-            format_errors(law, later_error.position, later_error.angle),
-        )
-        for later_error in history.later
-    ]
+    for later_error in history.later:
+        label = f"error {format_delay(later_error, history)} {unit} {event}"
+        facts.append(Fact(label, format_errors(law, later_error.position, later_error.angle)))
     label = "smallest error found for the failed arm"
     facts.append(make_fact(label, *smallest, label))
     closest = format_errors(law, history.least_position.position, history.least_angle.angle)

@@ -13,7 +13,7 @@ from holdfast.core.files.output import write_table
 from holdfast.core.formatting import format_number
 from holdfast.interface.presentation.collision.contacts import list_contacts, tabulate_contacts
 from holdfast.interface.presentation.collision.shape import summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Notice, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation, TableSpec, make_headers
 from holdfast.interface.presentation.simulation.errors import REACHED_ERROR, format_errors, list_error_facts, list_errors
 from holdfast.interface.presentation.simulation.runs_figures import RunDrawing
 from holdfast.kinematics.paths.joint_table import joint_columns
@@ -21,8 +21,7 @@ from holdfast.kinematics.paths.joint_table import joint_columns
 
 def to_dict(runs: Runs) -> dict[str, Any]:
     """Return one run by name; for many runs each number is a list."""
-    arm = runs.law.arm
-    unit = "cycles" if runs.cycles else "s"
+    arm, unit = runs.law.arm, runs.unit
 
     def map_by_joint(values: Any) -> dict[str, Any]:
         return dict(zip(arm.joint_names, values.T, strict=True))
@@ -120,7 +119,7 @@ def _present_outcomes(runs: Runs) -> Presentation:
         f"{len(runs):,} runs: {', '.join(f'{count:,} {name}' for name, count in counts.items())}.",
         about=f"Arm {runs.law.arm.title}, {runs.law.describe()}",
         lines=lines,
-        tables=[TableSpec("Outcomes", [Header("outcome", "outcome"), Header("runs", "runs")], rows)],
+        tables=[TableSpec("Outcomes", ["outcome", "runs"], rows)],
         figures={"run": FigureSpec(RunDrawing(runs, 0).draw_figure, "The first run")},
         method=[("Law", runs.law.describe())],
         arm=runs.law.arm,
@@ -163,9 +162,9 @@ def _tabulate_joints(drawing: RunDrawing) -> TableSpec:
         ", ".join(["locked"] * bool(np.isfinite(lock_time)) + ["passes its limits"] * bool(is_passed))
         for lock_time, is_passed in zip(drawing.lock_time, drawing.get_run_array("limits_passed"), strict=True)
     ]
-    columns = [Header(key, key, units) for key in ("start", "end", "smallest", "largest")]
+    columns = make_headers("start", "end", "smallest", "largest", unit=units)
     rows = list(zip(drawing.arm.joint_names, *values, notes, strict=True))
-    return TableSpec("Joint positions", [Header("joint", "joint"), *columns, Header("note", "")], rows)
+    return TableSpec("Joint positions", ["joint", *columns, ""], rows)
 
 
 def to_csv(runs: Runs, file: Path, k: int) -> Path:

@@ -29,12 +29,7 @@ _STILL_DISTANCE = 1e-3  # rad or m from the final position: smaller motion is no
 
 
 class RunDrawing:
-    """One run and the part of it that is drawn: all but the end of a motion that has stopped or repeats itself.
-
-    Args:
-        runs: Results of one or more simulated runs.
-        run_index: Index of the run to draw, from 0.
-    """
+    """One run and the part of it that is drawn: all but the end of a motion that has stopped or repeats itself."""
 
     def __init__(self, runs: Runs, run_index: int = 0) -> None:
         self.runs, self.run_index, self.arm = runs, run_index, runs.law.arm

@@ -19,7 +19,17 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.arm.view import build_view_section
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, Header, Notice, Presentation, TableSpec, format_value
+from holdfast.interface.presentation.indices.console import display_unit
+from holdfast.interface.presentation.presentation import (
+    Column,
+    Fact,
+    Header,
+    Notice,
+    Presentation,
+    TableSpec,
+    format_value,
+    make_headers,
+)
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.indices.index import Index
 from holdfast.kinematics.indices.objective import NegatedObjective, Objective, WeightedSum
@@ -84,7 +94,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
 
 def present(optima: Optima, asked: str = "") -> Presentation:
     """Present the gain of the best configurations; ``asked`` is the objective as worded on the command line."""
-    rows, name, unit = optima.rows, optima.objective.name, _display_unit(optima)
+    rows, name, unit = optima.rows, optima.objective.name, display_unit(optima.objective)
     is_solved, reference, is_single = rows.success, f"the {_name_reference(optima)}", len(rows.poses) == 1
     before, after = (
         float(np.median(values[is_solved])) if is_solved.any() else np.nan for values in (rows.value_before, rows.value)
@@ -155,7 +165,7 @@ def present(optima: Optima, asked: str = "") -> Presentation:
 
 def _compose_answer(optima: Optima, before: float, after: float) -> str:
     """Compose the answer from the medians of the objective over the poses."""
-    rows, unit = optima.rows, _display_unit(optima)
+    rows, unit = optima.rows, display_unit(optima.objective)
     before_text, after_text = (format_value(value, unit=unit) for value in (before, after))
     reference, is_solved, has_many_poses = f"the {_name_reference(optima)}", rows.success, len(rows.poses) > 1
     subject = f"the median of {optima.objective.name}" if has_many_poses else optima.objective.name
@@ -183,23 +193,23 @@ def _compose_answer(optima: Optima, before: float, after: float) -> str:
 def _tabulate_joints(rows: Optima) -> TableSpec:
     """Tabulate the configuration and the measures of a single pose joint by joint."""
     units, arm = [joint.unit for joint in rows.arm.joints], rows.arm
-    columns, values = [Header("joint", "joint")], [list(arm.joint_names)]
+    columns: list[Column] = ["joint"]
+    values = [list(arm.joint_names)]
     for label, joint_units, before, after in [("", units, rows.q_before, rows.q), *_compare_measures(rows)]:
         for moment, numbers in (("before", before), ("best", after)):
-            columns.append(Header(moment, f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
+            columns.append(Header(f"{label} {moment}".strip(), joint_units, style="angle", digits=5))
             values.append(numbers[0].tolist())
     return TableSpec("Configurations, before and best", columns, list(zip(*values, strict=True)))
 
 
 def _tabulate_poses(rows: Optima, unit: str) -> TableSpec:
     """Tabulate the objective of each pose."""
-    columns = [
-        Header("pose", "pose"),
-        Header("before", "before", unit, digits=6, aligned=False),
-        Header("best", "best", unit, digits=6, aligned=False),
-        Header("agreeing", "same optimum", style="percent"),
-        Header("starts", "of searches"),
-        Header("status", ""),
+    columns: list[Column] = [
+        "pose",
+        *make_headers("before", "best", unit=unit, digits=6, aligned=False),
+        Header("same optimum", style="percent"),
+        "of searches",
+        "",
     ]
     status_texts = ["" if status == Status.OK else _status_name(status).replace("_", " ") for status in rows.status]
     numbers = range(1, len(rows.poses) + 1)
@@ -283,10 +293,6 @@ def _format_failure_sets(failures: Sequence[Sequence[int]]) -> str:
 
 def _status_name(status: Any) -> str:
     return Status(int(status)).name.lower()
-
-
-def _display_unit(optima: Optima) -> str:
-    return "" if optima.objective.unit in ("1", "mixed") else optima.objective.unit
 
 
 def _name_reference(optima: Optima) -> str:

@@ -10,18 +10,21 @@ import numpy as np
 
 from holdfast.core.formatting import format_count, format_percent, list_alternatives
 from holdfast.core.status import Status
+from holdfast.core.typing import FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section, choose_views
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.page import Section
 from holdfast.kinematics.solvers.joint_space import is_unlimited
 from holdfast.kinematics.solvers.self_motions import SelfMotion
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.machine import Joint
+from holdfast.model.arm.model import Arm
 
 _MAX_DRAWN_CURVES = 6  # only the longest curves are drawn
 _DRAWN_CONFIGURATIONS = 6
+_CURVE_GAP_FRACTION = 0.04  # gap between two curves, as a fraction of the total length
 
 
 def to_dict(motion: SelfMotion) -> dict[str, Any]:
@@ -151,12 +154,7 @@ def _describe_surviving_locks(free: list[str], restricted: dict[str, float]) -> 
 
 def _build_tables(motion: SelfMotion) -> list[TableSpec]:
     """Tabulate the curves, and the allowed lock positions of each joint."""
-    columns = [
-        Header("curve", "curve"),
-        Header("length_rad", "length, rad", aligned=False),
-        Header("points", "points"),
-        Header("ends", ""),
-    ]
+    columns: list[Column] = ["curve", Header("length, rad", aligned=False), "points", ""]
     rows = [(i + 1, curve.length, len(curve.q), motion.ends(i)) for i, curve in enumerate(motion.components)]
     specs = [TableSpec("Self-motions", columns, rows)] if rows else []
     if motion.bounds is not None:
@@ -168,7 +166,7 @@ def _build_tables(motion: SelfMotion) -> list[TableSpec]:
             for index, (joint, ranges) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
         ]
         title = "After a lock of one joint, the target stays within reach if and only if the joint locks in these ranges"
-        specs.append(TableSpec(title, [Header("joint", "joint"), Header("may_lock_at", "allowed lock positions")], lock_rows))
+        specs.append(TableSpec(title, ["joint", "allowed lock positions"], lock_rows))
     return specs
 
 
@@ -224,28 +222,66 @@ def _describe_figure(motion: SelfMotion) -> FigureSpec:
 
 
 def _draw_self_motion(motion: SelfMotion, lock_ranges: Sequence[Sequence[tuple[float, float]]]) -> report.Figure:
-    arm = motion.arm
-    lower, upper = sampling_limits(arm)
-    factors = np.array([joint.display_unit[0] for joint in arm.joints])
-    panels = [
-        report.JointPanel(
-            f"{joint.name}, {joint.display_unit[1]}",
-            [(factor * begin, factor * finish) for begin, finish in joint_arcs],
-            (factor * lower_limit, factor * upper_limit),
-        )
-        for joint, factor, joint_arcs, lower_limit, upper_limit in zip(
-            arm.joints, factors, lock_ranges, lower, upper, strict=True
-        )
-    ]
-    longest = sorted(motion.components, key=lambda curve: -curve.length)[:_MAX_DRAWN_CURVES]
-    curves = []
-    for curve in longest:
-        step_lengths = np.linalg.norm(np.diff(curve.q, axis=0), axis=1)
-        curves.append((np.concatenate([[0.0], np.cumsum(step_lengths)]), factors * curve.q))
-    q, closed = (longest[0].q, longest[0].closed) if longest else (motion.q, False)
+    """Draw for each joint its values along consecutive curves, with its lock ranges as bands, and the arm."""
+    arm, curves = motion.arm, sorted(motion.components, key=lambda curve: -curve.length)[:_MAX_DRAWN_CURVES]
+    q, closed = (curves[0].q, curves[0].closed) if curves else (motion.q, False)
     chosen = np.linspace(0, max(len(q) - 1, 0), _DRAWN_CONFIGURATIONS + closed).astype(int)[:_DRAWN_CONFIGURATIONS]
     chains = arm.frames(q[chosen] if len(q) else q)[..., :3, 3]
     views = choose_views(arm, chains) if len(q) else []
-    omission_note = f"; the {_MAX_DRAWN_CURVES} longest curves are drawn" if len(motion.components) > _MAX_DRAWN_CURVES else ""
-    caption = f"{arm.name}, task {motion.task.name}: {motion.summary}{omission_note}"
-    return report.manifolds.self_motion_figure(panels, curves, chains, views, caption)
+    height = max(0.86 * arm.n + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
+    with report.styled_figure(report.WIDTH_IN, height) as figure:
+        joint_figure, arm_figure = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
+        joint_axes = np.atleast_1d(joint_figure.subplots(arm.n, 1, sharex=True))
+        for index, axes in enumerate(joint_axes):
+            _draw_joint(axes, arm, index, lock_ranges[index], [curve.q for curve in curves])
+        if not curves:
+            joint_axes[-1].set_xticks([])
+        joint_axes[-1].set_xlabel("length along the curves, one after the other, rad" if curves else "")
+        joint_axes[0].set_title("Along the self-motion manifold" if curves else "Values that keep the target within reach")
+        panels = np.atleast_1d(arm_figure.subplots(len(views), 1)) if views else ()
+        for axes, view in zip(panels, views, strict=True):
+            for index, shade in enumerate(np.linspace(0.25, 1.0, len(chains))):
+                tool_color = report.ORANGE if index == len(chains) - 1 else ""
+                style = {"linewidth": 1.2 + 0.9 * shade, "alpha": 0.25 + 0.55 * shade, "node_size": 4.0}
+                report.motions.draw_chain(axes, view.project(chains[index]), tool_color=tool_color, **style)
+            report.motions.show_view(axes, view, 0.1)
+        band = report.Patch(facecolor=report.SKY, alpha=0.55, label="lock keeps the target within reach")
+        line = report.Line2D([], [], color=report.BLUE, linewidth=1.6, label="on the curve")
+        handles = [*[band] * any(map(len, lock_ranges)), *[line] * bool(curves)]
+        figure.legend(handles=handles, loc="outside upper right", ncols=2)
+        omission_note = f"; the {len(curves)} longest curves are drawn" if len(motion.components) > len(curves) else ""
+        caption = f"{arm.name}, task {motion.task.name}: {motion.summary}{omission_note}"
+        figure.supxlabel(report.format_label(caption, 220), fontsize=9, color=report.SOFT)
+    return figure
+
+
+def _draw_joint(
+    axes: report.Axes, arm: Arm, joint: int, lock_ranges: Sequence[tuple[float, float]], curves: Sequence[FloatArray]
+) -> None:
+    """Draw the values of a joint along curves (K, n), one after the other, above bands of its lock ranges."""
+    factor, unit = arm.joints[joint].display_unit
+    lower, upper = (factor * limits[joint] for limits in sampling_limits(arm))
+    period = upper - lower
+    for begin, end in lock_ranges:
+        # A range that exceeds the upper limit of an unlimited joint continues at the lower limit.
+        for shift in (0.0, -period):
+            band_top, band_bottom = min(factor * end + shift, upper), max(factor * begin + shift, lower)
+            if band_top >= band_bottom:
+                axes.axhspan(band_bottom - 0.004 * period, band_top + 0.004 * period, color=report.SKY, alpha=0.55, linewidth=0)
+    arc_lengths = [np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))] for q in curves]
+    total_length = sum(float(lengths[-1]) for lengths in arc_lengths) or 1.0
+    curve_start = 0.0
+    for q, lengths in zip(curves, arc_lengths, strict=True):
+        values = factor * q[:, joint]
+        if (values < lower - 1e-6 * period).any() or (values > upper + 1e-6 * period).any():
+            values = (values - lower) % period + lower
+        jumps = np.flatnonzero(np.abs(np.diff(values)) > period / 2) + 1
+        for piece in np.split(np.arange(lengths.size), jumps):
+            axes.plot(curve_start + lengths[piece], values[piece], color=report.BLUE, linewidth=1.6)
+        curve_start += float(lengths[-1]) + _CURVE_GAP_FRACTION * total_length
+    axes.set_ylim(lower - 0.03 * period, upper + 0.03 * period)
+    axes.set_ylabel(report.format_label(f"{arm.joint_names[joint]}, {unit}", 26), rotation=0, ha="right", va="center")
+    axes.yaxis.set_major_locator(report.MaxNLocator(3, steps=[1, 3, 6, 9, 10] if period > 100 else None))
+    axes.grid(axis="x", visible=False)
+    if curves:
+        axes.set_xlim(-0.01 * total_length, curve_start - _CURVE_GAP_FRACTION * total_length + 0.01 * total_length)

@@ -7,7 +7,7 @@ import numpy as np
 from holdfast.core.typing import FloatArray
 from holdfast.interface import report
 from holdfast.interface.presentation.designs.figures import draw_parameters, draw_pareto_front
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import Column, Header, TableSpec
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import format_index_name, format_level
 from holdfast.interface.report.page import Block, Picture, Text
@@ -49,7 +49,7 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         "Spearman rank correlation of each parameter with the index quantile. Near 1 or -1 the parameter dominates; near 0 it "
         "has little effect, or its best value lies between the bounds. Best tenth: middle half of its values in the best 10 % "
         "of the designs",
-        [Header(label, label) for label in ("parameter", "unit", "bounds", "rank correlation", "best tenth")],
+        ["parameter", "unit", "bounds", "rank correlation", "best tenth"],
         [
             [
                 *(parameter.name, parameter.display_unit[1], (parameter.lower * factor, parameter.upper * factor)),
@@ -63,14 +63,10 @@ def build_sweep_blocks(swept: DesignSweep, place: int) -> list[Block]:
         if len(front) <= _MAX_FRONT_DESIGNS
         else front[np.unique(np.round(np.linspace(0, len(front) - 1, _MAX_FRONT_DESIGNS)).astype(int))]
     )
-    columns = [
-        Header("reach", "reach, m"),
-        Header("guaranteed", "index quantile"),
-        Header("reached", "poses reached", style="percent"),
-    ]
+    columns: list[Column] = ["reach, m", "index quantile", Header("poses reached", style="percent")]
     designs = TableSpec(
         f"Designs of the Pareto front ({len(selected)} of {len(front)})",
-        [*columns, *(Header(label, label) for label in parameter_labels)],
+        [*columns, *(label for label in parameter_labels)],
         [
             [
                 *(float(column[index]) for column in (swept.reach, swept.guaranteed, swept.reached)),

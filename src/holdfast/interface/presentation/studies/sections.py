@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.formatting import format_as_given, format_half_width, format_number, format_percent
 from holdfast.core.sweeps.study import Study
 from holdfast.interface import report
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import TableSpec, make_headers
 from holdfast.interface.presentation.renderers import build_table_block
 from holdfast.interface.presentation.studies.answer import get_index_key, read_cells
 from holdfast.interface.presentation.studies.designs import build_sweep_blocks
@@ -58,7 +58,7 @@ def build_sections(
 
 def _tabulate(title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> Block:
     """Build a table of texts and fractions."""
-    block: Block = build_table_block(TableSpec(title, [Header(label, label, style="percent") for label in head], rows).texts())
+    block: Block = build_table_block(TableSpec(title, make_headers(*head, style="percent"), rows).texts())
     return block
 
 

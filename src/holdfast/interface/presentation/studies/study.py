@@ -15,8 +15,8 @@ from holdfast.core.formatting import format_count, format_duration, list_alterna
 from holdfast.core.progress import reports_progress
 from holdfast.core.sweeps.study import Study
 from holdfast.core.sweeps.study_merge import MergeReport
-from holdfast.interface.presentation.presentation import Header, Notice, Presentation, TableSpec
-from holdfast.interface.presentation.renderers import build_page
+from holdfast.interface.presentation.presentation import Notice, Presentation, TableSpec
+from holdfast.interface.presentation.renderers import build_page, format_versions
 from holdfast.interface.presentation.studies.answer import compose_answer, get_index_key, list_leaders, read_cells
 from holdfast.interface.presentation.studies.sections import build_sections
 from holdfast.interface.report import page
@@ -64,7 +64,7 @@ def _present_progress(study: Study) -> Presentation:
     spent = format_duration(sum(cell.seconds for cell in cells))
     listed_cells = [cell for cell in cells if not cell.is_complete] if len(cells) > _MAX_TABLE_CELLS else cells
     is_cut = len(listed_cells) > _MAX_TABLE_CELLS
-    columns = [Header("name", "cell"), Header("rows", "rows"), Header("chunks", "chunks"), Header("seconds", "processor time")]
+    columns = ["cell", "rows", "chunks", "processor time"]
     rows = [
         (
             cell.name,
@@ -91,8 +91,7 @@ def _present_merge(merge: MergeReport) -> Presentation:
             f"'{merge.study.path}' were not replaced."
         )
     for maker in merge.study.makers:
-        packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
-        lines.append(f"Computed on {maker['processor']}: Python {maker['python']}, {packages}.")
+        lines.append(f"Computed on {maker['processor']}: Python {maker['python']}, {format_versions(maker['versions'])}.")
     if len(merge.study.makers) > 1:
         lines.append("Versions or processors differ: values agree with those of a single machine to 1e-12, not bit for bit.")
     progress = _present_progress(merge.study)
@@ -197,7 +196,8 @@ def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[s
         run_text = f"{run['started']}: {run['chunks']:,} chunks in {format_duration(run['seconds'])} on {run['on']}"
         entries.append(("Runs" if not position else "", run_text))
     for position, maker in enumerate(study.makers):
-        entries.append(("Computed on" if not position else "", _describe_maker(maker)))
+        text = f"{maker['processor']}; Python {maker['python']}, {format_versions(maker['versions'])}"
+        entries.append(("Computed on" if not position else "", text))
     if len(study.makers) > 1:
         text = "values agree with those of a single machine to 1e-12; machines of one kind agree bit for bit"
         entries.append(("Agreement", text))
@@ -207,11 +207,6 @@ def _list_method(study: Study, assessed: Sequence[AssessedCell]) -> list[tuple[s
         ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
     )
     return entries
-
-
-def _describe_maker(maker: dict[str, Any]) -> str:
-    versions = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
-    return f"{maker['processor']}; Python {maker['python']}, {versions}"
 
 
 def _build_rerun_blocks(study: Study) -> list[Block]:

@@ -86,7 +86,7 @@ def present(run: FaultRun) -> Presentation:
     rows = [
         [time, sentence if sentence.split(":")[0] in names else capitalise_first(sentence)] for time, sentence in sorted(events)
     ]
-    table = TableSpec("Faults and actions", [Header("time", "time, s", aligned=False), Header("event", "event")], rows)
+    table = TableSpec("Faults and actions", [Header("time, s", aligned=False), "event"], rows)
     return Presentation(
         f"{run.arm.name} with faults",
         answer,

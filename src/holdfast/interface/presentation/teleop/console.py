@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from holdfast.interface.presentation.printing import TextTable, print_table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from holdfast.teleop.protocol.protocol import Protocol
     from holdfast.teleop.records.records import Records
-
-
-def _make_grid(*head: str) -> Any:
-    from holdfast.interface.presentation.terminal import BandedTable
-
-    return BandedTable(*head)
 
 
 def show_experiment(records: Records, out: Console) -> None:
@@ -27,33 +23,28 @@ def show_experiment(records: Records, out: Console) -> None:
     training = len(records.entries(kind=TrialKind.TRAINING))
     text = f"{len(finished)} of {len(people)} simulated operators completed the experiment; {training} training tasks."
     out.print(text, soft_wrap=True)
-    table = _make_grid("scenario", "", "completed", "aborted", "timed out")
-    entries = records.entries(kind=TrialKind.TRIAL)
+    rows, entries = [], records.entries(kind=TrialKind.TRIAL)
     for index, scenario in enumerate(records.protocol.scenarios):
         endings = [ending.end for ending in entries if ending.scenario == index]
-        table.add_row(
-            str(scenario.number),
-            scenario.label,
-            *(str(endings.count(ending)) for ending in (End.ARRIVED, End.ABORTED, End.TIME)),
-        )
-    out.print(table)
+        counts = [str(endings.count(ending)) for ending in (End.ARRIVED, End.ABORTED, End.TIME)]
+        rows.append([str(scenario.number), scenario.label, *counts])
+    print_table(out, TextTable(["scenario", "", "completed", "aborted", "timed out"], rows))
     out.print(f"written: {records.folder}; next: holdfast teleop analyse {records.folder}", markup=False, soft_wrap=True)
 
 
 def show_subjects(records: Records, out: Console) -> None:
     """Print the subjects with the progress of their sessions."""
-    from rich.markup import escape
-
     from holdfast.teleop.records.session import Session
 
-    table = _make_grid("subject", "kind", "row", "session", "done", "since")
-    people = records.subjects()
-    for subject in people:
+    rows = []
+    for subject in records.subjects():
         progress = Session(records, subject.code).progress()
-        table.add_row(
-            escape(subject.code), subject.kind.value, str(subject.row + 1), subject.state.value, progress, subject.since[:10]
-        )
-    out.print(table if people else "no subjects yet")
+        cells = (subject.code, subject.kind.value, str(subject.row + 1), subject.state.value, progress, subject.since[:10])
+        rows.append(cells)
+    if rows:
+        print_table(out, TextTable(["subject", "kind", "row", "session", "done", "since"], rows))
+    else:
+        out.print("no subjects yet")
 
 
 def show_protocol(protocol: Protocol, out: Console) -> None:
@@ -75,28 +66,26 @@ def show_protocol(protocol: Protocol, out: Console) -> None:
         f"Rating: {', '.join(protocol.rating)}",
     ):
         out.print(escape(sentence), soft_wrap=True)
-    table = _make_grid("scenario", "")
+    scenarios, tasks = [], []
     for scenario in protocol.scenarios:
         options = ", ".join(
             f"{key} {option:g}" if isinstance(option, float) else f"{key} {option}" for key, option in scenario.options.items()
         )
-        table.add_row(str(scenario.number), escape(scenario.label + (f" ({options})" if options else "")))
-    out.print(table)
-    tasks = _make_grid("task", "failing joint", "distance to target, m", "note")
+        scenarios.append([str(scenario.number), scenario.label + (f" ({options})" if options else "")])
+    print_table(out, TextTable(["scenario", ""], scenarios))
     start = protocol.arm.forward_kinematics(protocol.tasks.q0)[:, :3, 3] @ protocol.rows.rows[:, :3].T
     for key, note in enumerate(protocol.notes):
         joint = protocol.arm.joint_names[protocol.tasks.joint[key]] if protocol.tasks.joint[key] >= 0 else "none"
         distance = float(((protocol.tasks.target[key] - start[key]) ** 2).sum() ** 0.5)
-        tasks.add_row(str(key + 1), escape(joint), f"{distance:.3f}", escape(note))
-    out.print(tasks)
+        tasks.append([str(key + 1), joint, f"{distance:.3f}", note])
+    print_table(out, TextTable(["task", "failing joint", "distance to target, m", "note"], tasks))
 
 
 def show_allocation(protocol: Protocol, subjects: int | None, out: Console) -> None:
     """Print a line for each subject: the row of the balanced square, and the tasks with their scenarios in order."""
-    order = protocol.task_order()
-    table = _make_grid("subject", "row", "order of the tasks, each with the order of its scenarios")
+    order, rows = protocol.task_order(), []
     for subject in range(protocol.subjects if subjects is None else subjects):
         session = protocol.session_order(subject % len(order), subject).reshape(len(protocol.tasks), -1, 2) + 1
         task_texts = " ".join(f"{trials[0, 0]}:{'/'.join(map(str, trials[:, 1]))}" for trials in session)
-        table.add_row(str(subject + 1), str(subject % len(order) + 1), task_texts)
-    out.print(table)
+        rows.append([str(subject + 1), str(subject % len(order) + 1), task_texts])
+    print_table(out, TextTable(["subject", "row", "order of the tasks, each with the order of its scenarios"], rows))

@@ -9,7 +9,6 @@ from holdfast.interface import report
 from holdfast.interface.presentation.teleop import figures
 from holdfast.interface.presentation.teleop.motions import Motion, motions_figure, ring
 from holdfast.interface.report.page import Block, Picture
-from holdfast.teleop.analysis.observations import MEASURE_NAMES
 from holdfast.teleop.analysis.result import Analysis, Paths
 from holdfast.teleop.analysis.tables import median_operator
 from holdfast.teleop.protocol.protocol import Protocol
@@ -18,11 +17,7 @@ from holdfast.teleop.protocol.protocol import Protocol
 def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | None, paths: Paths | None) -> list[Block]:
     """Build the figure of the motions of one task, if any were recorded, and the distributions of its measures.
 
-    Args:
-        analysis: Analysis of the experiment.
-        task: Number of the task, from 1.
-        protocol: Protocol of the experiment; its task with index k has the number k + 1.
-        paths: Function that returns recorded tool positions; see :meth:`holdfast.teleop.analysis.Analysis.report`.
+    ``task`` is its number from 1. ``paths`` returns tool positions; see :meth:`holdfast.teleop.analysis.Analysis.report`.
     """
     task_index = analysis.observed.tasks.index(task)
     blocks: list[Block] = []
@@ -30,25 +25,16 @@ def build_example_blocks(analysis: Analysis, task: int, protocol: Protocol | Non
     operator_note = "Simulated operators. " if analysis.is_simulated else ""
     if paths is not None and protocol is not None and protocol.rows.m == 2:
         blocks += _draw_motions(analysis, task_index, protocol, paths, operator_note)
-    observed = analysis.observed
-    measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[
-        :, task_index, :, : len(MEASURE_NAMES) + observed.has_ratings
-    ]
-    values = [
-        [measures[:, scenario, measure] for scenario in range(len(observed.conditions))]
-        for measure in range(measures.shape[-1])
-    ]
+    observed, computer = analysis.observed, analysis.computer
     computer_values = None
-    if analysis.computer is not None:
-        computer_measures = np.concatenate(
-            [analysis.computer.cpm[0, task_index, :, None], analysis.computer.measures[0, task_index]], axis=-1
-        )
-        computer_values = [computer_measures[:, measure] for measure in range(len(MEASURE_NAMES))]
+    if computer is not None:
+        computer_values = [np.concatenate(values) for values in figures.list_measure_values(computer, [task_index])]
     note = "" if protocol is None or task > len(protocol.notes) else protocol.notes[task - 1]
     caption = (
         f"{operator_note}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of {analysis.subject_phrase} "
         "in each scenario, over the trials that reached the target. Circles: computer control."
     )
+    values = figures.list_measure_values(observed, [task_index])
     figure = figures.measures_figure(values, computer_values, [condition.scenario for condition in observed.conditions])
     return [*blocks, Picture(report.svg(figure, f"task-{task}-measures", caption), caption)]
 

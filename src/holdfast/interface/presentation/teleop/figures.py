@@ -18,6 +18,7 @@ from holdfast.core.typing import FloatArray
 from holdfast.interface.report.figures import WIDTH_IN, format_label, legend_below, styled_figure
 from holdfast.interface.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.teleop.analysis.correlations import Correlation
+from holdfast.teleop.analysis.observations import MEASURE_NAMES, TrialTable
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.trials.performance import PERFORMANCE_MEASURES
 
@@ -38,16 +39,10 @@ class Scatter:
     ylabel: str
     correlation: Correlation
     groups: NDArray[np.int64]
-    equal: bool = False
 
 
 def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
-    """Draw scatter plots with one dot for each task, coloured by its group (Fig. 3).
-
-    Args:
-        panels: Contents of each panel.
-        names: Names of the groups.
-    """
+    """Draw scatter plots with one dot for each task, coloured by its group, with the names of the groups (Fig. 3)."""
     with styled_figure(WIDTH_IN * len(panels) / 3 if len(panels) < 3 else WIDTH_IN, 3.9) as figure:
         for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
             for group, name in enumerate(names):
@@ -64,10 +59,6 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
             axes.set(
                 xlabel=panel.xlabel, ylabel=panel.ylabel, title=f"r = {panel.correlation.r:.3f}, {panel.correlation.n} tasks"
             )
-            if panel.equal:
-                values = np.concatenate([panel.x, panel.y])
-                axis_end = float(values[np.isfinite(values)].max(initial=1.0))
-                axes.plot([0, axis_end], [0, axis_end], color=SOFT, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
         legend_below(figure, figure.axes[0], len(names))
     return figure
 
@@ -75,9 +66,7 @@ def scatter_figure(panels: Sequence[Scatter], names: Sequence[str]) -> Figure:
 def tasks_figure(analysis: Analysis, titles: tuple[str, str]) -> Figure:
     """Draw the CPM of each task under each law, sorted by the CPM of the reference law (Fig. 4).
 
-    Args:
-        analysis: Analysis of the experiment.
-        titles: Titles of the panels of the operators and of computer control.
+    The titles are those of the panels of the operators and of computer control.
     """
     table = analysis.table("tasks")
     kinds = [("median_operator", titles[0])] + ([] if analysis.computer is None else [("computer", titles[1])])
@@ -200,6 +189,15 @@ def measures_figure(
             axes.set_xlabel("scenario")
         figure.legend(handles=_legend_handles(computer is not None), loc="lower center", ncols=5, columnspacing=2.0)
     return figure
+
+
+def list_measure_values(observed: TrialTable, tasks: Sequence[int] | slice = slice(None)) -> list[list[FloatArray]]:
+    """List the values of CPM and each measure, for each scenario, over all subjects and the tasks (indices from 0)."""
+    measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[:, tasks]
+    return [
+        [measures[:, :, scenario, measure].ravel() for scenario in range(measures.shape[2])]
+        for measure in range(len(MEASURE_NAMES) + observed.has_ratings)
+    ]
 
 
 def label_measure(measure: int) -> tuple[str, float]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.core.formatting import format_decimals, format_number
-from holdfast.interface.presentation.presentation import Header, TableSpec
+from holdfast.interface.presentation.presentation import TableSpec, make_headers
 from holdfast.teleop.analysis.result import Analysis
 from holdfast.teleop.analysis.variance import Anova
 
@@ -31,7 +31,7 @@ def format_p_relation(probability: float) -> str:
 def make_table(analysis: Analysis, title: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> TableSpec:
     """Make a table, whose title marks simulated operators; a section of the page contains it."""
     title = f"{title} (simulated operators)" if analysis.is_simulated else title
-    return TableSpec(title, [Header(label, label, aligned=False) for label in head], rows, on_page=False)
+    return TableSpec(title, make_headers(*head, aligned=False), rows, on_page=False)
 
 
 def build_tables(analysis: Analysis) -> list[TableSpec]:

@@ -193,13 +193,7 @@ def _build_task_blocks(analysis: Analysis) -> list[Block]:
 
 def _draw_measures(analysis: Analysis) -> report.Figure:
     observed, computer = analysis.observed, analysis.computer
-    measures = np.concatenate([observed.cpm[..., None], observed.measures], axis=-1)[
-        ..., : len(MEASURE_NAMES) + observed.has_ratings
-    ]
-    values = [
-        [measures[:, :, scenario, measure].ravel() for scenario in range(len(observed.conditions))]
-        for measure in range(measures.shape[-1])
-    ]
+    values = drawing.list_measure_values(observed)
     computer_medians = None
     if computer is not None:
         table = analysis.table("measures")

@@ -13,7 +13,7 @@ from holdfast.core.files.output import write_files
 from holdfast.core.files.spreadsheet import write_csv_text
 from holdfast.core.formatting import format_percent
 from holdfast.interface import report
-from holdfast.interface.presentation.presentation import FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, FigureSpec, Presentation, TableSpec, make_headers
 from holdfast.interface.presentation.teleop.bank import bank_figure
 from holdfast.model import arms
 from holdfast.teleop.bank.selection import TaskChoice
@@ -72,21 +72,13 @@ def present(choice: TaskChoice) -> Presentation:
             else f"Task that converges to a stationary point but can be completed by steering: {choice.trapped + 1}."
         )
         lines += [f"Most disorienting of the other tasks: {choice.disorienting + 1}.", trapped]
-    columns = [
-        Header("scenario", "scenario"),
-        Header("label", ""),
-        Header("not_reached", "not completed"),
-        Header("time_cycles", "time, cycles", digits=3),
-        Header("path_m", "path, m", digits=3),
-        Header("velocity_error", "velocity error", digits=3),
-        Header("peak_direction_error_rad", "peak direction error, deg", digits=3),
-        Header("cpm", "CPM", digits=3),
-    ]
+    measures = ("time, cycles", "path, m", "velocity error", "peak direction error, deg", "CPM")
+    columns: list[Column] = ["scenario", "", "not completed", *make_headers(*measures, digits=3)]
     summaries = [
         summary | {"peak_direction_error_rad": np.degrees(summary["peak_direction_error_rad"])}
         for summary in _summarize_scenarios(bank)
     ]
-    rows = [[summary[column.key] for column in columns] for summary in summaries]
+    rows = [list(summary.values()) for summary in summaries]
     return Presentation(
         f"Tasks chosen from a bank for {choice.arm.name}",
         f"With the failed arm, the failure-tolerant inverse is better (CPM4/CPM3 below 1) in "
@@ -104,12 +96,9 @@ def _draw_bank(choice: TaskChoice) -> report.Figure:
 
 
 def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
-    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png.
+    """Write bank.csv, protocol.yaml with the chosen tasks, and bank.png into a folder, which is created if it does not exist.
 
-    Args:
-        choice: Chosen tasks.
-        folder: Folder to write; it is created if it does not exist.
-        spec: Arm as named in the protocol: a built-in name or a file.
+    ``spec`` is the arm as named in the protocol: a built-in name or a file.
     """
     files = write_files(folder, {"bank.csv": write_csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
     protocol = _make_protocol(choice, spec).write(folder / "protocol.yaml")

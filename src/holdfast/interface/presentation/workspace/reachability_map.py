@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.formatting import format_number, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section, choose_views
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.page import Section
 from holdfast.interface.report.views import View
 from holdfast.kinematics.workspace.reachability import ReachabilityMap
@@ -26,12 +26,12 @@ def present(reachability: ReachabilityMap) -> Presentation:
     lock_text = "at the given values" if count == 1 else f"at {count} values of its range"
     index, remaining_index = reachability.index, reachability.locked_index.sum(axis=0) / reachability.index.sum()
     worst = int(remaining_index.argmin())
-    columns = [
-        Header("joint", "locked joint"),
-        Header("index", "directions that remain", style="percent"),
-        Header("cells", "cells that remain", style="percent"),
-        Header("cells_always", "cells that remain for all values", style="percent"),
-        Header("growth", "found only by second half of samples", style="percent"),
+    columns: list[Column] = [
+        Header("locked joint", key="joint"),
+        Header("directions that remain", style="percent", key="index"),
+        Header("cells that remain", style="percent", key="cells"),
+        Header("cells that remain for all values", style="percent", key="cells_always"),
+        Header("found only by second half of samples", style="percent", key="growth"),
     ]
     fractions = (remaining_index, remaining.mean(axis=0), (remaining == 1).mean(axis=0), reachability.growth)
     rows = list(zip(arm.joint_names, *fractions, strict=True))

@@ -10,8 +10,10 @@ import numpy as np
 from holdfast.core.formatting import format_number, format_percent
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import choose_views
-from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
+from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.presentation.solvers.self_motion import format_ranges
+from holdfast.interface.report.palette import BLUE, EMPTY_COLOR, INK, SKY
+from holdfast.interface.report.views import View
 from holdfast.kinematics.workspace.tolerance import TolerantWorkspace
 
 
@@ -61,11 +63,7 @@ def present(region: TolerantWorkspace) -> Presentation:
         "Points that the healthy arm reaches, points that it reaches within the artificial limits, and points that stay "
         "reachable wherever a joint locks. Right: their sizes, and the size that remains after the locks of each joint alone."
     )
-    columns = [
-        Header("joint", "joint"),
-        Header("limits", "artificial limits"),
-        Header("lost", "points lost by its locks", style="percent"),
-    ]
+    columns: list[Column] = ["joint", "artificial limits", Header("points lost by its locks", style="percent")]
     joint_rows = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
     return Presentation(
         f"Failure-tolerant workspace of {region.arm.name}",
@@ -120,34 +118,50 @@ def _compose_answer(region: TolerantWorkspace) -> str:
 
 def _draw_figure(region: TolerantWorkspace) -> report.Figure:
     """Draw the region inside the workspace of the healthy arm, from one or two directions, and the sizes."""
-    maps = [
-        report.manifolds.RegionMap(
-            view.project(region.points),
-            view,
-            region.healthy,
-            region.within,
-            region.inside,
-            round(np.sqrt(len(region.points))) if region.exact else None,
-        )
-        for view in choose_views(region.arm, region.points[None])
-    ]
+    views = choose_views(region.arm, region.points[None])
     size_per_point = region.healthy_size / max(int(region.healthy.sum()), 1)
-    bars = [("healthy arm", region.healthy_size), ("artificial limits", size_per_point * float(region.within.sum()))]
-    bars += [
-        (f"after a lock of {name}", size_per_point * float(count))
-        for name, count in zip(region.arm.joint_names, region.survives.sum(axis=0), strict=True)
-    ]
-    bars.append(("after any lock", region.size))
-    error = np.abs(np.array(region.size_interval) - region.size)
-    limits_text = "limits optimised" if region.optimised else "limits given"
+    sizes = {"healthy arm": region.healthy_size, "artificial limits": size_per_point * float(region.within.sum())}
+    for name, count in zip(region.arm.joint_names, region.survives.sum(axis=0), strict=True):
+        sizes[f"after a lock of {name}"] = size_per_point * float(count)
+    sizes["after any lock"] = region.size
     lower, upper = region.size_interval
-    method = (
-        "in closed form for each radius"
-        if region.exact
-        else f"{len(region.points)} points, {region.angles} locked values per joint, {region.confidence:.0%} interval "
-        f"{lower:.3g} to {upper:.3g}"
-    )
-    sizes = f"{region.size:.4g} {region.unit} of {region.healthy_size:.4g} {region.unit}"
-    caption = f"{region.arm.name}, task {region.task.name}: {sizes} ({method}); {limits_text}"
-    unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
-    return report.manifolds.region_figure(maps, bars, unit, error, caption)
+    entries = ((EMPTY_COLOR, "healthy, own limits"), (SKY, "healthy, artificial limits"), (BLUE, "after any single lock"))
+    with report.styled_figure(report.WIDTH_IN, 4.6) as figure:
+        panels = figure.subplots(1, len(views) + 1, width_ratios=[1.0] * len(views) + [0.9 if len(views) > 1 else 1.1])
+        for axes, view in zip(panels, views, strict=False):
+            _draw_map(axes, region, view)
+        axes, last = panels[-1], len(sizes) - 1
+        axes.barh(range(len(sizes)), list(sizes.values()), height=0.64, color=[EMPTY_COLOR, *[SKY] * (last - 1), BLUE])
+        errors = np.abs(np.array([[lower], [upper]]) - region.size)
+        axes.errorbar(region.size, last, xerr=errors, color=INK, capsize=3, linewidth=1)
+        ends = [*list(sizes.values())[:-1], region.size + float(errors[1, 0])]
+        report.label_bars(axes, list(sizes), ends, texts=[f"{size:.3g}" for size in sizes.values()], max_letters=30)
+        unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
+        axes.set(xlabel=unit, xlim=(0, max(sizes.values()) * 1.2 or 1.0), title="Size")
+        handles = [report.Patch(facecolor=color, label=label) for color, label in entries]
+        figure.legend(handles=handles, loc="outside upper left", ncols=3)
+        method = "in closed form for each radius"
+        if not region.exact:
+            method = f"{len(region.points)} points, {region.angles} locked values per joint, {region.confidence:.0%} interval "
+            method += f"{lower:.3g} to {upper:.3g}"
+        caption = (
+            f"{region.arm.name}, task {region.task.name}: {region.size:.4g} {region.unit} of {region.healthy_size:.4g} "
+            f"{region.unit} ({method}); limits {'optimised' if region.optimised else 'given'}"
+        )
+        figure.supxlabel(report.format_label(caption, 220), fontsize=9, color=report.SOFT)
+    return figure
+
+
+def _draw_map(axes: report.Axes, region: TolerantWorkspace, view: View) -> None:
+    """Draw the points of the three nested sets: areas if the points are a square grid, otherwise dots."""
+    x, y = view.project(region.points).T
+    edge = round(np.sqrt(len(region.points)))
+    for chosen, color in ((region.healthy, EMPTY_COLOR), (region.within, SKY), (region.inside, BLUE)):
+        if not region.exact:
+            axes.scatter(x[chosen], y[chosen], s=9, c=color, linewidths=0)
+        elif chosen.any():
+            grids = [values.reshape(edge, edge).astype(float) for values in (x, y, chosen)]
+            axes.contourf(*grids, levels=[0.5, 1.5], colors=[color])
+    axes.plot(0, 0, marker="s", color=INK, markersize=6)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)

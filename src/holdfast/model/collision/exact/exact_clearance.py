@@ -48,23 +48,26 @@ class ExactClearance(Clearance):
     Args:
         bound: Clearance with the bound.
         margin: Margin that will be required, m.
+
+    Attributes:
+        bound: First argument of the constructor.
     """
 
     def __init__(self, bound: Clearance, margin: float) -> None:
         vars(self).update(
             {attribute: value for attribute, value in vars(bound).items() if attribute not in ("self_only", "exactness")}
         )
-        self._bound, self._near = bound, margin + _EXACT_BELOW_M
+        self.bound, self._near = bound, margin + _EXACT_BELOW_M
 
     @property
     def self_only(self) -> Clearance:
         """Bound without the cell."""
-        return self._bound.self_only
+        return self.bound.self_only
 
     @property
     def exactness(self) -> ExactQueries:
         """Exact collision queries, computed by a library."""
-        return self._bound.exactness
+        return self.bound.exactness
 
     @cached_property
     def _accuracy(self) -> float:
@@ -72,16 +75,16 @@ class ExactClearance(Clearance):
 
     def with_cell(self, cell: Cell | None) -> Clearance:
         """Return the clearance in another cell; see :meth:`holdfast.Clearance.with_cell`."""
-        other_bound = self._bound.with_cell(cell)
+        other_bound = self.bound.with_cell(cell)
         return with_exact_distances(other_bound, self._near - _EXACT_BELOW_M) or other_bound
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """Return the smallest distance, m; see :meth:`holdfast.Clearance.__call__`."""
-        return self._sharpen_margins(q, np.zeros(len(self.margins)), self._bound(q))
+        return self._sharpen_margins(q, np.zeros(len(self.margins)), self.bound(q))
 
     def margin_left(self, q: ArrayLike) -> FloatArray:
         """Return the smallest distance beyond its margin, m; see :meth:`holdfast.Clearance.margin_left`."""
-        return self._sharpen_margins(q, self.margins, self._bound.margin_left(q))
+        return self._sharpen_margins(q, self.margins, self.bound.margin_left(q))
 
     def _sharpen_margins(self, q: ArrayLike, margins: FloatArray, bound: FloatArray) -> FloatArray:
         rows, single = as_configurations(self.arm, q)
@@ -94,13 +97,13 @@ class ExactClearance(Clearance):
     def by_pair(self, q: ArrayLike) -> FloatArray:
         """Return the distance of every pair, m; see :meth:`holdfast.Clearance.by_pair`."""
         rows, single = as_configurations(self.arm, q)
-        values = self._bound.by_pair(rows)
+        values = self.bound.by_pair(rows)
         is_near = (values - self.margins).min(axis=1, initial=np.inf) < self._near
         if is_near.any():
-            exact_distance = self._bound.exact(rows[is_near]) - self._accuracy
+            exact_distance = self.bound.exact(rows[is_near]) - self._accuracy
             values[is_near] = np.maximum(values[is_near], exact_distance[:, None])
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> IndexArray:
         """Return the pair with the smallest margin by the bound; see :meth:`holdfast.Clearance.closest_pair`."""
-        return self._bound.closest_pair(q)
+        return self.bound.closest_pair(q)

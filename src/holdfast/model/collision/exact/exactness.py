@@ -16,7 +16,7 @@ from holdfast.model.cell.solids import Solid
 from holdfast.model.collision.capsules import Capsules, link_name
 from holdfast.model.collision.exact.bodies import body_from_solid, bounding_primitive, inner_primitives
 from holdfast.model.collision.exact.engines import CONTACT_DISTANCE_M, CollisionLibrary, contact_library, distance_library
-from holdfast.model.collision.exact.narrow_phase import SEARCH_DISTANCE_M, ArmBody, NarrowPhase, arm_bodies, make_inner_spheres
+from holdfast.model.collision.exact.narrow_phase import SEARCH_DISTANCE_M, ArmBody, NarrowPhase, make_inner_spheres
 from holdfast.model.collision.object_kernels import FAR_AWAY_M, FormulaObjects
 from holdfast.model.collision.obstacles import Obstacles
 from holdfast.model.collision.sphere_cover import make_sphere_cover
@@ -33,26 +33,25 @@ class ExactQueries:
     Args:
         arm: Arm model.
         capsules: Capsules that cover the arm.
+        parts: Bodies of the arm and of held objects; see :func:`holdfast.model.collision.exact.narrow_phase.arm_bodies`.
         self_bounds: Bound without the cell: functions for its smallest distance (N,) and that of every pair (N, P), m.
         pairs: Positions of the capsules that are checked against each other, the one nearer to the base first.
         ignored: Positions of the pairs that are not checked.
         obstacles: Objects of the cell, or None.
-        held: Objects that move with the tool, with poses in its frame.
     """
 
     def __init__(
         self,
         arm: Arm,
         capsules: Capsules,
+        parts: tuple[ArmBody, ...],
         self_bounds: tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray], FloatArray]],
         pairs: Sequence[Pair],
         ignored: Sequence[Pair],
         obstacles: Obstacles | None,
-        held: Sequence[Solid],
     ) -> None:
-        self.arm, self.capsules, self.obstacles = arm, capsules, obstacles
+        self.arm, self.capsules, self.parts, self.obstacles = arm, capsules, parts, obstacles
         self._self_bounds, self._pairs, self._ignored = self_bounds, pairs, ignored
-        self.parts = arm_bodies(arm, capsules, held)
 
     # ---- evaluation ----------------------------------------------------------------------------------------------
 
@@ -62,14 +61,16 @@ class ExactQueries:
         Raises:
             HoldfastError: No collision library is installed.
         """
-        queries = self._contact_queries
+        contact_library()  # an error, although the bounds might decide
         bound = np.minimum(self._self_bounds[0](q), self._outer_objects.smallest_distance(q))
         is_free = np.asarray(bound >= CONTACT_DISTANCE_M)
         (undecided,) = np.nonzero(bound < CONTACT_DISTANCE_M)
         if self.obstacles is not None:
             undecided = undecided[self._inner_distances.smallest_distance(q[undecided]) >= -CONTACT_DISTANCE_M]
         if undecided.size:
-            is_free[undecided] = ~queries.check_contacts(q[undecided], self._distance_bounds(q[undecided], near=False))
+            is_free[undecided] = ~self._contact_queries.check_contacts(
+                q[undecided], self._distance_bounds(q[undecided], near=False)
+            )
         return is_free
 
     def check_pair_contact(self, q: FloatArray, pair: int) -> BoolArray:
@@ -297,10 +298,9 @@ def _find_checked_pairs(
     parts: Sequence[ArmBody], low: Group, high: Group, unchecked: frozenset[tuple[str, str]]
 ) -> list[tuple[int, int]]:
     """Find the bodies of two links that are checked against each other, by their positions in ``parts``."""
-    pairs = []
-    for first_index, second_index in product(range(len(parts)), repeat=2):
-        first, second = parts[first_index], parts[second_index]
-        names = (min(first.owner, second.owner), max(first.owner, second.owner))
-        if ((first.link, first.held), (second.link, second.held)) == (low, high) and names not in unchecked:
-            pairs.append((first_index, second_index))
-    return pairs
+    by_group = [[index for index, part in enumerate(parts) if (part.link, part.held) == group] for group in (low, high)]
+    return [
+        (first, second)
+        for first, second in product(*by_group)
+        if (min(parts[first].owner, parts[second].owner), max(parts[first].owner, parts[second].owner)) not in unchecked
+    ]

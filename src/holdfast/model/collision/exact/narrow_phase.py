@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -64,7 +65,7 @@ class CandidatePair:
     box: PrimitiveSolid | None
 
 
-def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list[ArmBody]:
+def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> tuple[ArmBody, ...]:
     """Return the bodies of an arm: the shapes that its capsules cover, or the capsules themselves if no shape is known.
 
     Args:
@@ -81,7 +82,7 @@ def arm_bodies(arm: Arm, capsules: Capsules, held: Sequence[Solid] = ()) -> list
         parts = [ArmBody(piece.link, body_from_piece(piece), piece.owner) for piece in shape.pieces]
         parts += [ArmBody(part.link, body_from_capsule(part), known=False) for part in own_capsules if part.link in lacking]
     bodies = [body_from_solid(solid) for solid in held]
-    return parts + [ArmBody(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies]
+    return (*parts, *(ArmBody(arm.n - 1, replace(body, pose=arm.tool @ body.pose), held=True) for body in bodies))
 
 
 class NarrowPhase:
@@ -225,7 +226,8 @@ class NarrowPhase:
         return body_frames
 
 
-def make_inner_spheres(parts: Sequence[ArmBody]) -> SphereCover:
+@lru_cache(maxsize=16)
+def make_inner_spheres(parts: tuple[ArmBody, ...]) -> SphereCover:
     """Make spheres inside the known bodies of moving links; an object that touches a sphere touches the arm."""
     rows = []
     for number, part in sorted(enumerate(parts), key=lambda item: item[1].link):

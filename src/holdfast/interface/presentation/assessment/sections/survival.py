@@ -33,10 +33,13 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         for joint, angle in locks.items()
     }
     bar_labels = [f"{joint + 1} {names[joint]}{position}" for joint, position in positions.items()]
+    total = facts.distribution.total_weight() if facts.distribution.has_weights else facts.distribution.samples
     axis_label = f"{'weight of ' if facts.distribution.has_weights else ''}poses still reached after a lock of the joint"
-    figure = report.bar_figure(
-        bar_labels, survivors[list(locks)].tolist(), axis_label, total=_get_total_weight(facts), stress="least"
-    )
+    figure = report.bar_figure(bar_labels, survivors[list(locks)].tolist(), axis_label, total=total, stress="least")
+    collision_free = ""
+    if facts.assessment.clear is not None:
+        share = format_interval(facts.assessment.reached_clear())
+        collision_free = f", and at least {share} of all poses without collision with {facts.avoided_objects}"
     is_specified = [angle is not None for angle in locks.values()]
     place = "at its position for another pose of the region, chosen at random"
     if all(is_specified):
@@ -47,7 +50,7 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         Text(
             f"The healthy arm reaches {format_percent(1 - facts.distribution.unreached_share)} of "
             f"{'the weight of ' if facts.distribution.has_weights else ''}the {facts.distribution.samples:,} "
-            f"poses{_describe_collision_free_fraction(facts)}. The most costly lock is that of {worst}, {worst_position}. The "
+            f"poses{collision_free}. The most costly lock is that of {worst}, {worst_position}. The "
             f"fraction of the poses reached after it is {format_interval(fractions[worst])}."
         ),
         Picture(
@@ -62,26 +65,12 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
     return blocks if table is None else [*blocks, build_table_block(table.texts())]
 
 
-def _describe_collision_free_fraction(facts: AssessmentFacts) -> str:
-    """Describe the fraction of poses reached without collision; empty if collisions were not checked."""
-    return (
-        ""
-        if facts.assessment.clear is None
-        else f", and at least {format_interval(facts.assessment.reached_clear())} of all poses without collision with "
-        f"{facts.avoided_objects}"
-    )
-
-
 def _describe_clearance_method(facts: AssessmentFacts) -> str:
     clearance = facts.assessment.plan.clearance
     if facts.assessment.clear is None or clearance is None:
         return ""
     distance_kind = f"exact where small, {clearance.exact_by}" if isinstance(clearance, ExactClearance) else "lower bounds"
     return f" without collision with {facts.avoided_objects} (distances: {distance_kind})"
-
-
-def _get_total_weight(facts: AssessmentFacts) -> float:
-    return facts.distribution.total_weight() if facts.distribution.has_weights else facts.distribution.samples
 
 
 def _build_map_blocks(facts: AssessmentFacts, joint: int, position: str) -> list[Block]:

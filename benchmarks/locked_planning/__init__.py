@@ -1,0 +1,1 @@
+"""Benchmark of planning problems with a locked joint; see ``README.md``."""

@@ -1,0 +1,193 @@
+"""Tables of an arm and its obstacles for the compiled checks of edges, and calls of the compiled functions."""
+
+from __future__ import annotations
+
+from ctypes import Structure, addressof, c_int64, c_void_p
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.model.arm.model import Arm
+from holdfast.model.arm.poses import rotation_to_axis
+from holdfast.model.cell.solids import PrimitiveSolid
+from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.object_kernels import FAR_AWAY_M
+
+# As in route_search.cpp.
+MAX_JOINTS = 16
+MAX_PARTS = 192
+_EMPTY_RADIUS_M = -1.0  # of the sphere around the spheres of a link without any
+
+
+class _SceneAddresses(Structure):
+    """Structure ``Scene`` of route_search.cpp: counts, and addresses of tables."""
+
+    _fields_ = (
+        ("joint_count", c_int64),
+        ("object_count", c_int64),
+        ("link_pair_count", c_int64),
+        ("joints", c_void_p),
+        ("first_sphere", c_void_p),
+        ("spheres", c_void_p),
+        ("enclosing", c_void_p),
+        ("objects", c_void_p),
+        ("allowances", c_void_p),
+        ("parts", c_void_p),
+        ("first_part", c_void_p),
+        ("part_enclosing", c_void_p),
+        ("link_pairs", c_void_p),
+        ("pairs", c_void_p),
+        ("link_bounds", c_void_p),
+        ("pair_bounds", c_void_p),
+        ("pair_allowances", c_void_p),
+    )
+
+
+class SceneTables(NamedTuple):
+    """Tables of an arm and its obstacles; links count from 0, the base, which does not move.
+
+    Attributes:
+        joints: (n, 13) rotation (9) by rows and position (3) from the previous link, in frames whose z is the joint's axis, and
+            1 for a prismatic joint.
+        first_sphere: (n + 2,) first sphere of each link, and the number of spheres.
+        spheres: (S, 4) center in the frame of the link, and radius, m.
+        enclosing: (n + 1, 4) sphere around the spheres of each link; a radius below 0 without spheres.
+        objects: (K, 18) numbers of each object; see :meth:`PrimitiveSolid.numbers`.
+        allowances: (n + 1, K) required distance of each link from each object, m.
+        parts: (C, 8) center (3) and span (3) of the axis of each capsule in the frame of its link, its radius, and the radius
+            of the sphere around it, m; by link.
+        first_part: (n + 2,) first capsule of each link, and the number of capsules.
+        part_enclosing: (n + 1, 4) sphere around the capsules of each link.
+        link_pairs: (P, 4) two links, and the first and the end of their pairs of capsules.
+        pairs: (Q, 2) capsules that are checked against each other.
+        link_bounds: (n + 1, n) largest motion of a link per unit of each joint.
+        pair_bounds: (P, n) largest change of the distance of two links per unit of each joint.
+        pair_allowances: (P,) required distance of the links, m.
+    """
+
+    joints: FloatArray
+    first_sphere: IndexArray
+    spheres: FloatArray
+    enclosing: FloatArray
+    objects: FloatArray
+    allowances: FloatArray
+    parts: FloatArray
+    first_part: IndexArray
+    part_enclosing: FloatArray
+    link_pairs: IndexArray
+    pairs: IndexArray
+    link_bounds: FloatArray
+    pair_bounds: FloatArray
+    pair_allowances: FloatArray
+
+    @classmethod
+    def from_clearance(cls, clearance: Clearance, margin: float, lipschitz_bounds: FloatArray) -> SceneTables:
+        """Collect the tables of a clearance whose objects all have a distance formula.
+
+        Args:
+            clearance: Collision model.
+            margin: Required distance in addition to the margins of objects, m.
+            lipschitz_bounds: (P, n) bounds of the change of each pair's distance; see :meth:`Clearance.lipschitz_bounds`.
+        """
+        arm, obstacles = clearance.arm, clearance.obstacles
+        frames, maps = _joint_frames(arm)
+        by_link = sorted(range(len(clearance.capsules)), key=lambda index: clearance.capsules.parts[index].link)
+        positions = np.argsort(np.array(by_link, dtype=np.int64))
+        capsules = [clearance.capsules.parts[index] for index in by_link]
+        capsule_links = np.array([part.link + 1 for part in capsules], dtype=np.int64)
+        ends = np.array([[part.start, part.end] for part in capsules]).reshape(-1, 2, 3)
+        ends = _to_axis_frames(ends, capsule_links, maps)
+        radii = np.array([part.radius for part in capsules])
+        spans = ends[:, 1] - ends[:, 0]
+        checked_pairs = positions[np.array(clearance.pairs, dtype=np.int64).reshape(-1, 2)]
+        link_pairs, pairs, pair_bounds = _group_pairs(checked_pairs, capsule_links, lipschitz_bounds[: len(clearance.pairs)])
+        first_sphere, spheres = np.zeros(arm.n + 2, dtype=np.int64), np.zeros((0, 4))
+        enclosing = np.tile([0.0, 0.0, 0.0, _EMPTY_RADIUS_M], (arm.n + 1, 1))
+        objects, allowances, link_bounds = np.zeros((0, 18)), np.zeros((arm.n + 1, 0)), np.zeros((arm.n + 1, arm.n))
+        if obstacles is not None:
+            cover = obstacles.spheres
+            moving = cover.link >= 0
+            links, sphere_radii = cover.link[moving] + 1, cover.radius[moving]
+            centers = _to_axis_frames(cover.center[moving][:, None], links, maps)[:, 0]
+            spheres = np.column_stack([centers, sphere_radii])
+            first_sphere = np.searchsorted(links, np.arange(arm.n + 2))
+            for link in np.unique(links):
+                enclosing[link] = _enclose_spheres(spheres[links == link])
+            objects = np.array([solid.numbers() for solid in obstacles.cell if isinstance(solid, PrimitiveSolid)])
+            own_margins = np.array([obstacles.cell.margin_of(solid) for solid in obstacles.cell])
+            allowances = np.where(obstacles.may_touch, -FAR_AWAY_M, own_margins + margin)
+            link_bounds[obstacles.links + 1] = lipschitz_bounds[len(clearance.pairs) :: len(obstacles.cell)]
+        part_enclosing = np.zeros((arm.n + 1, 4))
+        for link in np.unique(capsule_links):
+            is_on_link = capsule_links == link
+            part_enclosing[link] = _enclose_spheres(
+                np.column_stack([ends[is_on_link].reshape(-1, 3), np.repeat(radii[is_on_link], 2)])
+            )
+        return cls(
+            joints=frames,
+            first_sphere=first_sphere,
+            spheres=spheres,
+            enclosing=enclosing,
+            objects=objects.reshape(-1, 18),
+            allowances=allowances,
+            parts=np.column_stack([ends.mean(axis=1), spans, radii, radii + np.linalg.norm(spans, axis=1) / 2]).reshape(-1, 8),
+            first_part=np.searchsorted(capsule_links, np.arange(arm.n + 2)),
+            part_enclosing=part_enclosing,
+            link_pairs=link_pairs,
+            pairs=pairs,
+            link_bounds=link_bounds,
+            pair_bounds=pair_bounds,
+            pair_allowances=np.full(len(link_pairs), margin),
+        )
+
+
+class CompiledScene:
+    """Tables in one precision, at addresses for compiled code."""
+
+    def __init__(self, tables: SceneTables, precision: DTypeLike) -> None:
+        self._arrays = [
+            np.ascontiguousarray(table, dtype=np.int64 if table.dtype.kind == "i" else precision) for table in tables
+        ]
+        counts = len(tables.joints), len(tables.objects), len(tables.link_pairs)
+        self._addresses = _SceneAddresses(*counts, *(array.ctypes.data for array in self._arrays))
+        self.address = addressof(self._addresses)
+
+
+def _joint_frames(arm: Arm) -> tuple[FloatArray, FloatArray]:
+    """Return the joints (n, 13) of :class:`SceneTables`, and the map (n + 1, 4, 4) from each link's frame to that frame."""
+    rows, maps = [], [arm.base]
+    for joint in arm.joints:
+        to_axis = np.eye(4)
+        to_axis[:3, :3] = rotation_to_axis(joint.axis)
+        frame = maps[-1] @ joint.origin @ to_axis
+        rows.append([*frame[:3, :3].ravel(), *frame[:3, 3], float(joint.prismatic)])
+        maps.append(to_axis.T)
+    return np.array(rows), np.array(maps)
+
+
+def _to_axis_frames(points: FloatArray, links: IndexArray, maps: FloatArray) -> FloatArray:
+    """Return points (N, k, 3) of links (N,), given in the links' frames, in the frames of the tables."""
+    return np.asarray(np.einsum("nij,nkj->nki", maps[links, :3, :3], points) + maps[links, None, :3, 3])
+
+
+def _enclose_spheres(spheres: FloatArray) -> FloatArray:
+    """Return a sphere (4,) around spheres (N, 4): its center is the middle of their bounding box."""
+    centers, radii = spheres[:, :3], spheres[:, 3]
+    middle = ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0)) / 2
+    return np.append(middle, (np.linalg.norm(centers - middle, axis=1) + radii).max())
+
+
+def _group_pairs(
+    pairs: IndexArray, links: IndexArray, lipschitz_bounds: FloatArray
+) -> tuple[IndexArray, IndexArray, FloatArray]:
+    """Group pairs (Q, 2) by their links, and return link pairs, pairs and bounds of :class:`SceneTables`."""
+    keys = np.column_stack([links[pairs], pairs])
+    order = np.lexsort(keys.T[::-1])
+    is_first = np.ones(len(pairs), dtype=np.bool_)
+    is_first[1:] = (np.diff(keys[order, :2], axis=0) != 0).any(axis=1)
+    starts = np.flatnonzero(is_first)
+    link_pairs = np.column_stack([keys[order][starts, :2], starts, np.append(starts[1:], len(pairs))[: len(starts)]])
+    bounds = np.maximum.reduceat(lipschitz_bounds[order], starts) if len(pairs) else lipschitz_bounds
+    return link_pairs.astype(np.int64), pairs[order], bounds
