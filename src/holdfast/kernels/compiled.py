@@ -26,7 +26,7 @@ from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
 
 MAX_IMMEDIATE_OPERATIONS = 100  # operations that level 1 compiles in about 15 ms, hardly longer than level 0
-MAX_TWO_REGISTER_OPERATIONS = 5000  # operations up to which level 1 handles two registers of rows; larger programs do not fit
+MAX_TWO_REGISTER_OPERATIONS = 6000  # operations up to which level 1 handles two registers of rows; larger programs do not fit
 MAX_WAITED_OPERATIONS = 40_000  # operations up to which a caller waits for level 1
 MAX_COMPILED_OPERATIONS = (
     100_000  # operations: larger programs take minutes on level 1 (measured: 6 s of 74,000, not done after 250 s of 582,000)

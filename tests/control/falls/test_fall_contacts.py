@@ -8,12 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
 import dynamics
 import holdfast as hf
 import oracles
 from fall_reference import Reference
+from holdfast.control.falls import contact
 from holdfast.model.cell import Box, HalfSpace, Points, Sphere
 from holdfast.model.collision import LinkCapsule
 
@@ -171,6 +173,37 @@ def test_contacts_are_those_of_the_same_falls_sampled_finely(scene):
         np.testing.assert_allclose(fall.q_final[row], free_fall.q_at(contact.time)[row])
         assert fall.drop[row] == pytest.approx(max(0, free_fall.drop_at(times[:first])[row].max()), abs=4e-3)
     assert kinds == {False, True}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_point_leaves_its_chord_by_more_than_the_margin(seed):
+    """Against points that the oracles' kinematics moves along cubic polynomials of the joints, also of slides."""
+    rng = np.random.default_rng(seed)
+    arm = oracles.random_arm(rng, 5, "RRPRR" if seed % 2 else "RRRRR")
+    ends = rng.uniform(-0.3, 0.3, (5, 2, 3))
+    clearance = hf.Clearance(arm, hf.Capsules([LinkCapsule(k, *map(tuple, ends[k]), radius=0.01) for k in range(5)]))
+    times, turns = [0.0, rng.uniform(0.005, 0.05)], rng.uniform(-1, 1, (2, 5))
+    turns[1] = turns[0] + rng.uniform(-0.1, 0.1, 5)
+    rates, fractions = rng.uniform(-8, 8, (2, 5)), np.linspace(0, 1, 101)
+    path = CubicHermiteSpline(times, turns, rates)(times[1] * fractions)
+    levers = clearance.lipschitz_bounds(np.full(5, -2.0), np.full(5, 2.0)).max(axis=0)
+    states = (turns[:1], rates[:1], turns[1:], rates[1:], [times[1]])
+    kernel = contact._bound_kernel(arm, clearance.capsules, tuple(clearance.pairs), True)
+    outputs = kernel.rows(*states, levers, np.zeros((1, len(clearance.pairs) + 5)))[0]
+    displacements, margin = -outputs[:-2], outputs[-2]
+    frames = oracles.frames(arm, path)
+    views = [(-1, link) for link in range(5)]
+    views = [tuple(clearance.capsules.parts[part].link for part in pair) for pair in clearance.pairs] + views
+    worst = 0.0
+    for displacement, (seen_from, link) in zip(displacements, views, strict=True):
+        poses = np.linalg.solve(frames[seen_from + 1], frames[link + 1])
+        points = poses[:, None, :3, :3] @ ends[link][:, :, None] + poses[:, None, :3, 3:]
+        chords = points[0] + fractions[:, None, None, None] * (points[-1] - points[0])
+        worst = max(worst, np.linalg.norm(points - chords, axis=2).max())
+        assert displacement == pytest.approx(np.linalg.norm(points[-1] - points[0], axis=1).max(), abs=1e-12)
+    assert worst <= margin
+    assert margin < 20 * worst
+    assert outputs[-1] == pytest.approx(-displacements.max() - margin)
 
 
 def test_speed_and_mass_are_those_of_the_gradient_of_the_distance(scene):

@@ -7,7 +7,10 @@ import math
 import shlex
 import sys
 from contextlib import nullcontext
+from itertools import product
 
+import numpy as np
+import pinocchio
 import pytest
 
 import holdfast as hf
@@ -116,6 +119,29 @@ def test_a_ceiling(cli, tmp_path):
     )
     assert code == 3
     assert len(json.loads(out)["extreme"]) == 7
+
+
+def test_a_hold(cli, tmp_path):
+    """Friction a little above and below the largest gravity torque that Pinocchio finds at the corners of the box."""
+    arm, center, half = hf.arms.load("yam"), np.deg2rad([0, 60, 60, 0, 0, 0]), np.deg2rad(2)
+    corners = center + half * np.array(list(product((-1, 1), repeat=6)))
+    model = arm.to_pinocchio()
+    data = model.createData()
+    most = max(np.abs(pinocchio.computeGeneralizedGravity(model, data, corner)).max() for corner in corners)
+    file, page = tmp_path / "a.certificate", tmp_path / "a.html"
+    words = ["certify", "hold", "yam", "--around", "0 60 60 0 0 0", "--within", "2", "--degrees", "--out", str(file)]
+    code, out, _ = cli(*words, "--coulomb", str(1.02 * most), "--json", "--report", str(page))
+    assert (code, json.loads(out)["rejected"]) == (0, 0)
+    assert "certify hold yam" in page.read_text(encoding="utf-8")
+    assert cli("certificate", "check", str(file))[0] == 0
+    assert cli(*words, "--coulomb", str(0.8 * most))[0] == 4
+    assert cli(*words, "--stiction", str(0.8 * most), "--gravity", "0,0,-4.9")[0] == 0
+    code, _, err = cli(*words, "--coulomb", "9", "--plot", str(tmp_path / "a.png"))
+    assert code == 2
+    assert "figure" in err
+    code, _, err = cli(*words, "--coulomb", "0")
+    assert code == 2
+    assert "nothing holds this arm but its motors" in err
 
 
 def test_a_structural_zero(cli, tmp_path):

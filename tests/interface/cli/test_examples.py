@@ -77,6 +77,7 @@ QUICK |= {
     "certify reach",
     "certify ceiling",
     "certify floor",
+    "certify hold",
     "certify structural-zero",
     "certify out-of-reach",
     "certify tolerant",

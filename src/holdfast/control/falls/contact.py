@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
+from holdfast.control.falls.passive_arm import largest, smallest
 from holdfast.control.falls.simulator import FallSimulator, FallStates
+from holdfast.control.simulation.system import LARGE_NUMBER, elementwise_max
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
+from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.threads import in_pool, shared_pool, thread_count
+from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
-from holdfast.model.collision.capsules import BASE_LINK
+from holdfast.model.arm.model import Arm
+from holdfast.model.collision.capsules import BASE_LINK, Capsules
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.contacts import MIN_DISTANCE_CHANGE_M, Contact
 from holdfast.model.collision.segments import LineSegment, closest_parameters
@@ -21,6 +29,7 @@ CHECK_SPACING_S = 0.01  # simulated time between two computations of the distanc
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
+MIN_BLOCK_ROWS = 1 << 10  # of the block of one thread
 MOST_WAITING_SPANS = 1 << 12  # between two checks, after which contacts are located in all of them together
 
 
@@ -75,11 +84,12 @@ class _Instant:
 class ContactSearch:
     """Falls of one arm up to their first contacts.
 
-    Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates
-    at both ends. A pair with the distances d_1 and d_2 at two instants comes no closer between them than ``(d_1 + d_2 - L) /
-    2``, where L bounds the change of its distance (:meth:`Clearance.lipschitz_bounds`). If this is below 0, the span is halved,
-    until L is below half a millimetre. The distances at an instant are only computed where ``d_1 - L`` is below 0, with the
-    last computed d_1 and the L of all spans since. Only a contact less than a quarter of a millimetre deep may be missed.
+    Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates at
+    both ends. The points of a link differ from straight motions, whose longest is D, by at most a margin e
+    (:func:`_bound_kernel`). So a pair with the distances d_1 and d_2 at two instants comes no closer between them than
+    ``(d_1 + d_2 - D) / 2 - e``. If this is below 0, the span is halved, until the distance changes by less than half a
+    millimetre. The distances at an instant are only computed where ``d_1 - D < e``, with the last computed d_1 and the D of all
+    spans since. Only a contact less than a quarter of a millimetre deep may be missed.
 
     Args:
         simulator: Simulator of the falls.
@@ -95,49 +105,59 @@ class ContactSearch:
         is_stopped = simulator.has_stops & np.isfinite(arm.lower) & np.isfinite(arm.upper)
         travel = np.where(is_stopped, 0.0, np.linalg.norm(arm.gravity) * duration**2)
         reached = np.concatenate([limits, starts])
-        self.change_bounds = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel)
-        own, objects = np.split(self.change_bounds, [len(clearance.pairs)])
-        by_link = objects if clearance.obstacles is None else objects[:: len(clearance.obstacles.cell)]
-        self.nearest_change_bounds = np.ascontiguousarray(np.concatenate([own, by_link]).T)
+        self.levers = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel).max(
+            axis=0, initial=0.0
+        )
+        self.bound_kernel = _bound_kernel(arm, clearance.capsules, tuple(clearance.pairs), clearance.obstacles is not None)
+        own_count, objects = len(clearance.pairs), 0 if clearance.obstacles is None else len(clearance.obstacles.cell)
+        others = np.arange(own_count, len(clearance.pair_names))
+        self.nearest_of_pair = np.concatenate([np.arange(own_count), own_count + (others - own_count) // max(objects, 1)])
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
-        block_rows = BLOCK_DISTANCES // (1 + len(self.clearance.pair_names))
-        blocks = [slice(start, start + block_rows) for start in range(0, max(len(q), 1), block_rows)]
-        tracked = track("blocks of falls", blocks)
-        return FallStates.join([self._run_block(q[b], rates[b], until[b], step[b]) for b in tracked])
+        calls = max(1, int(CHECK_SPACING_S / (self.simulator.stepper.steps_per_call * step.max(initial=1e-9))))
+        fewest = 1 + len(q) * len(self.clearance.pair_names) // BLOCK_DISTANCES
+        workers = 1 if in_pool() else min(thread_count(), 1 + len(q) // MIN_BLOCK_ROWS)
+        blocks = np.array_split(np.arange(len(q)), max(fewest, workers))
 
-    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
+        def run_block(rows: IndexArray) -> FallStates:
+            return self._run_block(q[rows], rates[rows], until[rows], step[rows], calls)
+
+        parts = map(run_block, blocks) if workers == 1 else shared_pool().map(run_block, blocks)
+        return FallStates.join([part for _, part in zip(track("blocks of falls", blocks), parts, strict=True)])
+
+    def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray, calls: int) -> FallStates:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
         done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
-        calls = max(1, int(CHECK_SPACING_S / (stepper.steps_per_call * step.max(initial=1e-9))))
         distances, ignored = self._measure_nearest(q), self.clearance.by_pair(q) < 0
+        has_ignored = np.any(ignored, axis=1)
         # Spans of falls in which a contact is possible.
         spans: list[tuple[IndexArray, FloatArray, FloatArray, BoolArray]] = []
         span_count = 0
         for remaining_checks in reversed(range(most_calls // calls + 1)):
             before = states[rows]
             result = stepper.loop.run(before, parameters[rows], 0.5, calls)
-            after, has_ignored = self._view_instants(result.state), np.any(ignored, axis=1)
-            travel = _bound_travel(self._view_instants(before), after)
-            distances -= np.einsum("rj,jk->rk", travel, self.nearest_change_bounds)  # small, so threads of @ would only wait
+            after, watched = self._view_instants(result.state), has_ignored[rows]
+            distances, margins, excess = self._bound_distances(self._view_instants(before), after, distances)
             # The distances are computed only where these lower bounds do not exclude a contact.
-            doubtful = np.flatnonzero(np.any(distances < 0, axis=1) | has_ignored)
+            doubtful = np.flatnonzero((excess < 0) | watched)
             measured, is_running = self._measure_nearest(after.q[doubtful]), ~result.done
             is_touching = np.any(measured < 0, axis=1)
-            possible = doubtful[is_touching | has_ignored[doubtful] | (distances[doubtful] + measured < 0).any(axis=1)]
+            is_near = (distances[doubtful] + measured < 2 * margins[doubtful]).any(axis=1)
+            possible = doubtful[is_touching | watched[doubtful] | is_near]
             if possible.size:
                 span_count += possible.size
-                spans.append((rows[possible], before[possible], result.state[possible], ignored[possible]))
+                spans.append((rows[possible], before[possible], result.state[possible], ignored[rows[possible]]))
             distances[doubtful] = measured
-            is_running[doubtful[is_touching & ~has_ignored[doubtful]]] = False
-            if has_ignored.any():
-                by_pair = self.clearance.by_pair(after.q[has_ignored])
-                is_running[has_ignored] &= ((by_pair >= 0) | ignored[has_ignored]).all(axis=1)
-                ignored[has_ignored] &= by_pair < REQUIRED_GAP_M
+            is_running[doubtful[is_touching & ~watched[doubtful]]] = False
+            if watched.any():
+                by_pair, falls = self.clearance.by_pair(after.q[watched]), rows[watched]
+                is_running[watched] &= ((by_pair >= 0) | ignored[falls]).all(axis=1)
+                ignored[falls] &= by_pair < REQUIRED_GAP_M
+                has_ignored[falls] = np.any(ignored[falls], axis=1)
             states[rows], done[rows] = result.state, result.done
-            rows, distances, ignored = rows[is_running], distances[is_running], ignored[is_running]
+            rows, distances = rows[is_running], distances[is_running]
             if spans and not (rows.size and remaining_checks and span_count <= MOST_WAITING_SPANS):
                 falls, starts, ends, were_ignored = map(np.concatenate, zip(*spans, strict=True))
                 contact_times, pairs = self._locate_contacts(starts, ends, were_ignored)
@@ -145,7 +165,7 @@ class ContactSearch:
                 order = order[pairs[order] >= 0]
                 time[falls[order]], pair[falls[order]], states[falls[order]] = contact_times[order], pairs[order], starts[order]
                 spans, span_count, is_clear = [], 0, np.flatnonzero(pair[rows] < 0)
-                rows, distances, ignored = rows[is_clear], distances[is_clear], ignored[is_clear]
+                rows, distances = rows[is_clear], distances[is_clear]
             if not rows.size:
                 break
         touching = np.flatnonzero(pair >= 0)
@@ -162,6 +182,12 @@ class ContactSearch:
         parts = self.simulator.stepper.layout.view_parts(states)
         return _Instant(time=parts["time"][:, 0], q=parts["q"], rates=parts["rates"])
 
+    def _bound_distances(self, start: _Instant, end: _Instant, distances: FloatArray) -> tuple[FloatArray, ...]:
+        """Return lower bounds of :meth:`_measure_nearest` at the end, margins (R, 1), and excesses (R,), m."""
+        motion = start.q, start.rates, end.q, end.rates, end.time - start.time
+        bounds = self.bound_kernel.rows(*motion, np.broadcast_to(self.levers, start.q.shape), distances)
+        return bounds[:, :-2], bounds[:, -2:-1], bounds[:, -1]
+
     def _measure_nearest(self, q: FloatArray) -> FloatArray:
         """Return the distances (R, K) of all pairs of links, and of each link from its nearest object."""
         distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
@@ -174,12 +200,11 @@ class ContactSearch:
         """
         start, end = self._view_instants(starts), self._view_instants(ends)
         duration, first, last = end.time - start.time, self.clearance.by_pair(start.q), self.clearance.by_pair(end.q)
-        falls, pairs = _find_possible_contacts(_bound_travel(start, end), first, last, self.change_bounds, ignored)
+        bounds, margins, _ = self._bound_distances(start, end, np.zeros((len(first), 1 + self.nearest_of_pair.max(initial=-1))))
+        is_near = first + last + bounds[:, self.nearest_of_pair] < 2 * margins
+        falls, pairs = np.nonzero((is_near | (last < 0)) & ~ignored)
         polynomials = _interpolate(start, end)  # of the fraction of the duration
-        derivatives = polynomials[:, 1:] * np.array([[1.0], [2.0], [3.0]])
-        # A quadratic polynomial on (0, 1) is between the least and the largest of its Bernstein coefficients.
-        bernstein = np.stack([derivatives[:, 0], derivatives[:, 0] + derivatives[:, 1] / 2, derivatives.sum(axis=1)])
-        rates = np.einsum("rj,rj->r", np.abs(bernstein).max(axis=0)[falls], self.change_bounds[pairs])
+        rates = 4 * margins[falls, 0] - bounds[falls, self.nearest_of_pair[pairs]]
         spans = np.array([np.zeros(falls.size), np.ones(falls.size), first[falls, pairs], last[falls, pairs], rates])
         fraction, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
         latest = fraction.copy()  # fractions at which a contact has begun
@@ -217,24 +242,42 @@ class ContactSearch:
         return distances
 
 
-def _bound_travel(before: _Instant, after: _Instant) -> FloatArray:
-    """Bound the travel (R, n) of each joint on the cubic polynomials between two instants, rad and m."""
-    half = (after.time - before.time)[:, None] / 2
-    travel = half * (np.abs(before.rates) + np.abs(after.rates))
-    return np.asarray(travel + np.abs(after.q - before.q - half * (before.rates + after.rates)))
+@lru_cache(maxsize=16)
+@cached_kernel
+def _bound_kernel(arm: Arm, capsules: Capsules, pairs: tuple[tuple[int, int], ...], has_objects: bool) -> Kernel:
+    """Return the kernel of two states, their distance in time, s, levers (n,), and distances (K,), m.
 
+    Its results are the distances minus displacements (K,), a margin, and the least excess of these over the margin, m. A
+    displacement is the largest of the points of a link: for each pair of links as seen from the first one, then for each link
+    with capsules as seen from the base. In between, a point differs from its straight motion by at most the margin, which is an
+    eighth of a bound on its second derivative. The levers bound the distances of all points from the joint axes, m.
+    """
+    parts, n = capsules.parts, arm.n
+    q, rates, later_q, later_rates, levers = (ca.SX.sym(name, n) for name in ("q", "v", "q1", "v1", "l"))
+    duration = ca.SX.sym("t")
+    ends = [kinematics.joint_transforms(arm, x) for x in (q, later_q)]
 
-def _find_possible_contacts(
-    travel: FloatArray, before: FloatArray, after: FloatArray, change_bounds: FloatArray, ignored: BoolArray
-) -> tuple[IndexArray, IndexArray]:
-    """Return the falls and the pairs of which the distance, ``before`` and ``after`` (R, P), may reach 0 in between."""
-    # Most pairs are excluded by the largest bound of all pairs.
-    largest_change = np.einsum("rj,j->r", travel, change_bounds.max(axis=0, initial=0.0))
-    falls, pairs = np.nonzero(((before + after < largest_change[:, None]) | (after < 0)) & ~ignored)
-    change = np.einsum("rj,rj->r", travel[falls], change_bounds[pairs])
-    last = after[falls, pairs]
-    is_possible = (before[falls, pairs] + last < change) | (last < 0)
-    return falls[is_possible], pairs[is_possible]
+    def find_largest(numbers: list[int], seen_from: int) -> SX:
+        poses = [kinematics.body_and_joint_frames(arm, steps, seen_from + 1)[0] for steps in ends]
+        squares = []
+        for part, end in ((parts[number], end) for number in numbers for end in ("start", "end")):
+            point = kinematics.constant_matrix(np.array(getattr(part, end)))
+            before, after = (rotation @ point + position for rotation, position in (pose[part.link + 1] for pose in poses))
+            squares.append(ca.sumsqr(after - before))
+        return ca.sqrt(largest(ca.vertcat(*squares)))
+
+    links = sorted({part.link for part in parts} - {BASE_LINK}) if has_objects else []
+    own = [find_largest([second], parts[first].link) for first, second in pairs]
+    moved = [find_largest([k for k, part in enumerate(parts) if part.link == link], BASE_LINK) for link in links]
+    # On the cubic polynomials, rates and accelerations are between Bernstein coefficients. The unit of time is the duration.
+    chord, first, last = later_q - q, duration * rates, duration * later_rates
+    speed = elementwise_max(elementwise_max(ca.fabs(first), ca.fabs(last)), ca.fabs(3 * chord - first - last))
+    bend = elementwise_max(ca.fabs(6 * chord - 4 * first - 2 * last), ca.fabs(6 * chord - 2 * first - 4 * last))
+    margin = ca.dot(levers, bend + speed * (2 * ca.cumsum(speed) - speed)) / 8
+    distances = ca.SX.sym("d", len(own) + len(moved))
+    bounds = distances - ca.vertcat(*own, *moved)
+    inputs = [q, rates, later_q, later_rates, duration, levers, distances]
+    return Kernel("bounds of distances", inputs, [bounds, margin, smallest(ca.vertcat(bounds, LARGE_NUMBER)) - margin])
 
 
 def _interpolate(start: _Instant, end: _Instant) -> FloatArray:

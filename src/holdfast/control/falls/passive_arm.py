@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
-from holdfast.control.simulation.system import ParameterLayout, elementwise_min
+from holdfast.control.simulation.system import ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
+from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.linalg import solve_spd
+from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.model.arm import dynamics, kinematics, statics
 from holdfast.model.arm.model import Arm
 
 TIME_ROUNDING_S = 1e-12  # s: two times that differ by less are equal
+FIXED_INERTIA = 1e100  # kg m^2 or kg; nothing accelerates it by as much as the rounding of a number
 
 
 class PassiveArm:
@@ -28,6 +32,7 @@ class PassiveArm:
     """
 
     steps_per_call = 1
+    layout: ColumnLayout
 
     def __init__(self, arm: Arm) -> None:
         self.arm = arm
@@ -38,6 +43,16 @@ class PassiveArm:
         self.parameters = ParameterLayout(**self.symbols)
         norm = float(np.linalg.norm(arm.gravity))
         self.down = arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
+
+    @cached_property
+    @cached_kernel
+    def loop(self) -> Loop:
+        """Loop that repeats the steps."""
+        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, self.steps_per_call)
+
+    def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
+        """Return the parts of a state after one call."""
+        raise NotImplementedError
 
     def is_braked(self, time: SX) -> SX:
         """Return 1 if the brakes act at a time, else 0."""
@@ -77,13 +92,13 @@ def solve_selected(matrix: SX, right_side: SX, selected: SX, fixed: SX) -> SX:
         selected: (n,) 1 for an unknown, 0 for a fixed entry of x.
         fixed: (n,) values of the fixed entries.
     """
-    n = matrix.shape[0]
     remaining = right_side - matrix @ ((1 - selected) * fixed)
-    rows = [[selected[i] * selected[k] * matrix[i, k] + (1 - selected[i] if i == k else 0) for k in range(n)] for i in range(n)]
-    solution = ca.vertcat(*solve_spd(rows, ca.vertsplit(ca.densify(selected * remaining))))
+    heavy = matrix + ca.diag(FIXED_INERTIA * (1 - selected))
+    solution = ca.vertcat(*solve_spd([ca.horzsplit(row) for row in ca.vertsplit(heavy)], ca.vertsplit(ca.densify(remaining))))
     return ca.if_else(selected, solution, fixed)
 
 
+@lru_cache(maxsize=16)
 @cached_kernel
 def energy_kernel(arm: Arm) -> Kernel:
     """Return the kernel ``q -> potential energy, inertia matrix (n, n)``, J and kg m^2."""

@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import REQUIRED_GAP_M, ContactSearch, FallContacts, collect_contact_fields
 from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
-from holdfast.control.falls.simulator import FallSimulator, FallStates, compiled_energy_kernel, never
+from holdfast.control.falls.passive_arm import energy_kernel
+from holdfast.control.falls.simulator import FallSimulator, FallStates
+from holdfast.control.simulation.system import LARGE_NUMBER
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status
@@ -101,7 +103,7 @@ def power_loss(
     conditions: dict[str, FloatArray | float] = {
         **vars(joint_friction),
         **(no_brakes if brakes is None else brakes.of_joints(arm)),
-        "brake_time": never() if brakes is None else brakes.after,
+        "brake_time": LARGE_NUMBER if brakes is None else brakes.after,
         "restitution": restitution,
         "free": is_free,
     }
@@ -277,7 +279,7 @@ def _require_inertia(arm: Arm, q: FloatArray, joints: tuple[int, ...]) -> FloatA
     moved = np.full(len(joints), np.inf)
     if not len(q):
         return moved
-    inertia = compiled_energy_kernel(arm).rows(q[:1])[0, 1:].reshape(arm.n, arm.n)
+    inertia = energy_kernel(arm).rows(q[:1])[0, 1:].reshape(arm.n, arm.n)
     for index in reversed(range(len(joints))):
         joint, later = joints[index], list(joints[index + 1 :])
         own = float(inertia[joint, joint])

@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.control.falls.passive_arm import energy_kernel
 from holdfast.control.falls.smooth import SmoothStepper
 from holdfast.control.falls.stepping import DryFrictionStepper
-from holdfast.control.simulation.system import LARGE_NUMBER, STATE_AT_REST
+from holdfast.control.simulation.system import STATE_AT_REST
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kernels.kernel import Kernel
@@ -69,7 +69,7 @@ class FallSimulator:
         has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
         self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry or is_stiff else compiled_smooth_stepper(arm)
-        self.energy_kernel: Kernel = compiled_energy_kernel(arm)
+        self.energy_kernel: Kernel = energy_kernel(arm)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Leave the compiled loops out of a pickle."""
@@ -109,11 +109,12 @@ class FallSimulator:
         """Return the states of falls from ``starts`` (N, n) from the states of the loop."""
         parts = self.stepper.layout.view_parts(states)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
+        tool, down = self.tool_points(end), self.stepper.down
         return FallStates(
             q=end,
             rates=parts["rates"].copy(),
-            tool=self.tool_points(end),
-            drop=parts["deepest"][:, 0] - self.tool_points(starts) @ self.stepper.down,
+            tool=tool,
+            drop=np.maximum(parts["deepest"][:, 0], tool @ down) - self.tool_points(starts) @ down,
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
@@ -134,24 +135,6 @@ class FallSimulator:
         return self.energy_kernel.rows(q)[:, 1:].reshape(-1, self.arm.n, self.arm.n)
 
 
-@lru_cache(maxsize=16)
-def compiled_stepper(arm: Arm, has_stops: bool) -> DryFrictionStepper:
-    """Return the steps with dry friction of an arm, which are compiled once."""
-    return DryFrictionStepper(arm, has_stops)
-
-
-@lru_cache(maxsize=16)
-def compiled_smooth_stepper(arm: Arm) -> SmoothStepper:
-    """Return the steps without dry friction and stops of an arm, which are compiled once."""
-    return SmoothStepper(arm)
-
-
-@lru_cache(maxsize=16)
-def compiled_energy_kernel(arm: Arm) -> Kernel:
-    """Return the kernel of :func:`holdfast.control.falls.passive_arm.energy_kernel`, which is compiled once."""
-    return energy_kernel(arm)
-
-
-def never() -> float:
-    """Return the time of an event that does not happen, s; kernels turn infinity into NaN."""
-    return LARGE_NUMBER
+# Compiled once for each arm.
+compiled_stepper = lru_cache(maxsize=16)(DryFrictionStepper)
+compiled_smooth_stepper = lru_cache(maxsize=16)(SmoothStepper)

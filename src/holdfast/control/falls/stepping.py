@@ -28,11 +28,7 @@ from holdfast.control.simulation.system import (
     ColumnLayout,
     choose_parts,
     elementwise_max,
-    make_state_loop,
 )
-from holdfast.core.caching import cached_property
-from holdfast.kernels.disk_cache import cached_kernel
-from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.model.arm import dynamics, statics
 from holdfast.model.arm.model import Arm
@@ -96,12 +92,6 @@ class DryFrictionStepper(PassiveArm):
         scalars = dict.fromkeys(("step", "tries", "time", "deepest", "residual", "code"), 1)
         self.layout = ColumnLayout(q=n, rates=n, acceleration=n, mode=n, **scalars)
 
-    @cached_property
-    @cached_kernel
-    def loop(self) -> Loop:
-        """Loop that repeats the calls of a step."""
-        return make_state_loop("falls", self._build_call, self.layout, self.parameters.symbols, self.steps_per_call)
-
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
         """Return the parts after one call: a corrected set, a shorter step, or the state after the step."""
         q, rates, mode, symbols = parts["q"], parts["rates"], parts["mode"], self.symbols
@@ -134,17 +124,16 @@ class DryFrictionStepper(PassiveArm):
         is_new = ca.logic_and(ca.fabs(mode) == MODE_BREAKING_LOOSE, conditions.resting_friction > conditions.sliding_friction)
         is_loosening = ca.logic_and(any_of(is_new), ca.logic_not(is_impact))
         corrected = {
-            **parts,
             "mode": ca.if_else(is_contradictory, corrected_mode, ca.if_else(is_new, sign * MODE_SLIDING, mode)),
             "tries": parts["tries"] + 1,
             "step": h,
         }
         fraction, shortened_mode = self._find_event(parts, conditions, solution)
-        shortened = {**parts, "mode": shortened_mode, "tries": ca.SX(0), "step": h * fraction}
+        shortened = {"mode": shortened_mode, "tries": ca.SX(0), "step": h * fraction}
+        is_corrected, is_running = ca.logic_or(is_contradictory, is_loosening), parts["code"] == STATE_RUNNING
         moved = self._advance(parts, conditions, solution, excess)
-        next_parts = choose_parts(fraction < 1, shortened, moved)
-        next_parts = choose_parts(ca.logic_or(is_contradictory, is_loosening), corrected, next_parts)
-        return choose_parts(parts["code"] == STATE_RUNNING, next_parts, parts)
+        tried = {**parts, **choose_parts(is_running, choose_parts(is_corrected, corrected, shortened), parts)}
+        return choose_parts(ca.logic_and(is_running, ca.logic_not(ca.logic_or(is_corrected, fraction < 1))), moved, tried)
 
     def _solve_set(self, parts: dict[str, SX], conditions: _Conditions, matrix: SX, impulse: SX) -> _Solution:
         """Solve the linear system in which each joint slides, is held, or rebounds as the present set has it."""
@@ -204,13 +193,14 @@ class DryFrictionStepper(PassiveArm):
         """
         q, rates, mode, h = parts["q"], parts["rates"], parts["mode"], conditions.h
         end = q + h / 2 * (rates + solution.rates)
-        first, second, free = h * rates, h / 2 * (solution.rates - rates), self.symbols["free"]
-        to_lower = _crossing_fraction(q - self.lower, end - self.lower, first, second, free)
-        to_upper = _crossing_fraction(self.upper - q, self.upper - end, -first, -second, free)
+        is_low = 2 * end < self.lower + self.upper  # only this limit can be crossed
+        side, limit = ca.if_else(is_low, 1.0, -1.0), ca.if_else(is_low, self.lower, self.upper)
+        first, second = side * h * rates, side * h / 2 * (solution.rates - rates)
+        to_stop = _crossing_fraction(side * (q - limit), side * (end - limit), first, second, self.symbols["free"])
         is_stopping = ca.logic_and(solution.is_active, ca.logic_and(conditions.is_moving, conditions.sliding_friction > 0))
         is_stopping = ca.logic_and(is_stopping, solution.direction * solution.rates < -RATE_ROUNDING)
         to_rest = ca.if_else(is_stopping, rates / ca.if_else(is_stopping, rates - solution.rates, 1.0), 1.0)
-        fraction = smallest(ca.vertcat(to_lower, to_upper, to_rest))
+        fraction = smallest(ca.vertcat(to_stop, to_rest))
         fraction = ca.if_else(conditions.is_impact, 1.0, fraction)
         rests_first = ca.logic_and(is_stopping, to_rest <= fraction)
         return fraction, ca.if_else(rests_first, MODE_STOPPING, ca.if_else(mode == MODE_STOPPING, MODE_HELD, mode))
@@ -246,7 +236,8 @@ class DryFrictionStepper(PassiveArm):
             "residual": elementwise_max(parts["residual"], largest(excess)),
             "code": ca.if_else(is_last, STATE_PHASE_END, STATE_RUNNING),
         }
-        return choose_parts(is_at_rest, {**parts, "code": ca.SX(STATE_AT_REST)}, moved)
+        unchanged = {"q": parts["q"], "time": parts["time"], "code": ca.SX(STATE_AT_REST)}
+        return {**moved, **choose_parts(is_at_rest, unchanged, moved)}
 
 
 def _crossing_fraction(start: SX, end: SX, first: SX, second: SX, is_free: SX) -> SX:
@@ -254,6 +245,6 @@ def _crossing_fraction(start: SX, end: SX, first: SX, second: SX, is_free: SX) -
     crosses = ca.logic_and(is_free, end < -STOP_TOLERANCE)
     root = ca.sqrt(ca.if_else(crosses, elementwise_max(first * first - 4 * second * start, 0.0), 1.0))
     is_leaving = first > 0
-    leaving = -(first + root) / ca.if_else(ca.logic_and(crosses, is_leaving), 2 * second, 1.0)
-    approaching = 2 * start / ca.if_else(ca.logic_and(crosses, ca.logic_not(is_leaving)), root - first, 1.0)
-    return ca.if_else(crosses, ca.if_else(is_leaving, leaving, approaching), 1.0)
+    # Each quotient is that without cancellation.
+    dividend, divisor = ca.if_else(is_leaving, -(first + root), 2 * start), ca.if_else(is_leaving, 2 * second, root - first)
+    return ca.if_else(crosses, dividend / ca.if_else(crosses, divisor, 1.0), 1.0)

@@ -86,18 +86,16 @@ class LockedTargetBoxOptions(TargetBoxOptions):
 
 
 @dataclass(frozen=True)
-class ConfigurationBoxOptions:
-    """Options for a box of configurations, around a center or within limits, and for the task and failures in it."""
+class JointBoxOptions:
+    """Options for a box of configurations, around a center or within limits."""
 
     around: Annotated[str | None, "Center of the configuration box in rad, one value per joint. Default: the limits."] = None
     within: Annotated[str | None, "Half widths of the configuration box in rad: one number, or one per joint."] = None
     limit: LimitOption = None
-    task: Annotated[str, "Task: pose, or planar-pose for an arm that moves in a plane."] = "pose"
     degrees: AnglesOption = False
-    failures: FailuresOption = "single"
 
-    def read_claim_arguments(self, arm: Arm) -> dict[str, Any]:
-        """Return the box, failures and task as arguments of a claim."""
+    def read_box(self, arm: Arm) -> Ranges:
+        """Return the ranges of the joints that the options name."""
         box: Ranges = {}
         if (self.around is None) != (self.within is None):
             raise InputError("--around and --within go together; give the center of the box and its half widths")
@@ -113,8 +111,19 @@ class ConfigurationBoxOptions:
             pairs = zip(arm.joint_names, center, [*half_widths] * (arm.n // len(half_widths)), strict=True)
             texts = [f"{name}={value - half_width}..{value + half_width}" for name, value, half_width in pairs]
             box = read_joint_intervals(arm, "--around", texts, self.degrees)
-        box |= read_joint_intervals(arm, "--limit", self.limit, self.degrees)
-        return {"joint_box": box, "failures": read_failures(arm, self.failures), "task": self.task}
+        return box | read_joint_intervals(arm, "--limit", self.limit, self.degrees)
+
+
+@dataclass(frozen=True)
+class ConfigurationBoxOptions(JointBoxOptions):
+    """Options for a box of configurations, and for the task and failures in it."""
+
+    task: Annotated[str, "Task: pose, or planar-pose for an arm that moves in a plane."] = "pose"
+    failures: FailuresOption = "single"
+
+    def read_claim_arguments(self, arm: Arm) -> dict[str, Any]:
+        """Return the box, failures and task as arguments of a claim."""
+        return {"joint_box": self.read_box(arm), "failures": read_failures(arm, self.failures), "task": self.task}
 
 
 @dataclass(frozen=True)

@@ -52,5 +52,5 @@ def write_outputs(result: Result, plot: Path | None, out: Path | None = None, **
     """
     files = []
     if plot is not None:
-        files.append(report.save_png(next(iter(result.figures(**options).values())), plot))
+        files.append(report.save_png(result.plot(**options), plot))
     return files if out is None else [*files, *result.save(out, command=current_command(), **options)]

@@ -133,12 +133,12 @@ class _FunctionEmitter(Arithmetic):
         return self._add(WORD_OPERATIONS["join"], *a.split())
 
     def integer_operation(self, operation: str, a: str, constant: int) -> str:
-        """Return the words after ``add``, ``and``, ``or``, or a shift by 52 bits; no constant changes the low word."""
+        """Return the words after ``add``, ``and``, ``or``, or a shift by 32 bits or more; no constant changes the low word."""
         high, low = a.split()
         word, zero = WORD_OPERATIONS[operation], self.constant(0.0)
         if operation in ("shl", "lshr"):
-            assert constant == 52, "the other shifts mix both words"
-            moved = self._add(word, low if operation == "shl" else high, self.constant(20.0))
+            assert constant >= 32, "the other shifts mix both words"
+            moved = self._add(word, low if operation == "shl" else high, self.constant(constant - 32.0))
             return f"{moved} {zero}" if operation == "shl" else f"{zero} {moved}"
         assert constant & 0xFFFFFFFF == (0xFFFFFFFF if operation == "and" else 0), "the constant changes the low word"
         return f"{self._add(word, high, self.constant(constant >> 32))} {low}"

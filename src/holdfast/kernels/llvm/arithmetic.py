@@ -33,6 +33,7 @@ _COSINE_COEFFICIENTS = (
     4.16666666666666019037e-02,
 )
 ROUNDING_SHIFT = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to a whole number
+BITS_OF_ONE = 0x3FF << 52
 _LARGEST_ANGLE_RAD = 1e15
 
 
@@ -149,11 +150,11 @@ def emit_sine_and_cosine(e: Arithmetic, x: str) -> tuple[str, str]:
         e: Receiver of the instructions.
         x: Name of the angle.
     """
-    x = e.select(e.compare_less(e.mul(x, x), e.constant(_LARGEST_ANGLE_RAD**2)), x, e.constant(float("nan")))
+    x = e.select(e.compare_less(e.intrinsic("fabs", x), e.constant(_LARGEST_ANGLE_RAD)), x, e.constant(float("nan")))
     rounding_shift = e.constant(ROUNDING_SHIFT)
     # Nearest whole number of x / pi.
-    turns = e.sub(e.fma(x, e.constant(0.31830988618379067154), rounding_shift), rounding_shift)
-    reduced = x
+    shifted = e.fma(x, e.constant(0.31830988618379067154), rounding_shift)
+    turns, reduced = e.sub(shifted, rounding_shift), x
     for part in _PI_PARTS:
         reduced = e.fma(turns, e.constant(-part), reduced)
     half = e.mul(e.constant(0.5), reduced)
@@ -164,9 +165,8 @@ def emit_sine_and_cosine(e: Arithmetic, x: str) -> tuple[str, str]:
         emit_polynomial(e, _COSINE_COEFFICIENTS, square),
         e.fma(e.constant(-0.5), square, e.constant(1.0)),
     )
-    pairs = e.sub(e.fma(turns, e.constant(0.5), rounding_shift), rounding_shift)
-    odd_turns = e.fma(pairs, e.constant(-2.0), turns)  # -1, 0 or 1
-    sign = e.fma(e.mul(odd_turns, odd_turns), e.constant(-2.0), e.constant(1.0))
+    # The last bit of the number of turns is the sign bit of 1 or -1.
+    sign = e.from_bits(e.integer_operation("or", e.integer_operation("shl", e.to_bits(shifted), 63), BITS_OF_ONE))
     return e.mul(sign, e.mul(e.add(sine, sine), cosine)), e.mul(sign, e.mul(e.sub(cosine, sine), e.add(cosine, sine)))
 
 

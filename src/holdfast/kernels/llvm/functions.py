@@ -17,7 +17,7 @@ from collections.abc import Callable
 
 import casadi as ca
 
-from holdfast.kernels.llvm.arithmetic import ROUNDING_SHIFT, Arithmetic, emit_polynomial
+from holdfast.kernels.llvm.arithmetic import BITS_OF_ONE, ROUNDING_SHIFT, Arithmetic, emit_polynomial
 
 
 def _read_coefficients(text: str) -> tuple[float, ...]:
@@ -56,9 +56,8 @@ _RANGE_CENTERS = (  # centres of the thirds of a range, with their logarithms in
 )
 _INFINITY = float("inf")
 _NOT_A_NUMBER = float("nan")
-# _MANTISSA_BITS, _BITS_OF_ONE and _BITS_OF_ROOT_HALF: bits
+# _MANTISSA_BITS and _BITS_OF_ROOT_HALF: bits
 _MANTISSA_BITS = (1 << 52) - 1
-_BITS_OF_ONE = 0x3FF << 52
 _BITS_OF_ROOT_HALF = 0x3FE6A09E << 32
 
 
@@ -104,7 +103,7 @@ def _split_exponent(e: Arithmetic, x: str) -> tuple[str, str]:
     """Return the k and m of x = 2^k m, m from the root of 1/2 to that of 2, of a positive finite x."""
     small = e.compare_less(x, e.constant(2.0**-1022))
     x = e.select(small, e.mul(x, e.constant(2.0**54)), x)
-    shifted = e.integer_operation("add", e.to_bits(x), _BITS_OF_ONE - _BITS_OF_ROOT_HALF)
+    shifted = e.integer_operation("add", e.to_bits(x), BITS_OF_ONE - _BITS_OF_ROOT_HALF)
     # The bits of a small whole number below those of 2^52 give 2^52 plus that number.
     k = e.sub(
         e.from_bits(e.integer_operation("or", e.integer_operation("lshr", shifted, 52), 0x433 << 52)),

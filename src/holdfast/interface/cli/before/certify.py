@@ -17,6 +17,7 @@ from holdfast.interface.cli.certify_options import (
     CheckOption,
     ConfigurationBoxOptions,
     HalvingsOption,
+    JointBoxOptions,
     JointHalvingsOption,
     LimitOption,
     LockedTargetBoxOptions,
@@ -26,7 +27,7 @@ from holdfast.interface.cli.certify_options import (
     read_joint_intervals,
 )
 from holdfast.interface.cli.certify_search import prove_claim, prove_with_found_ranges
-from holdfast.interface.cli.groups import ArmSourceOptions
+from holdfast.interface.cli.groups import ArmSourceOptions, FrictionOptions, MountingOptions
 from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, FailuresOption, JsonOption
 from holdfast.interface.cli.values import read_joint, read_numbers
 from holdfast.interface.presentation.results import print_result
@@ -153,6 +154,30 @@ def floor(
     """
     model = options.resolve_arm(arm)
     claim = hf.certificates.floor_claim(model, threshold=above, **configurations.read_claim_arguments(model))
+    prove_claim(claim, options, halvings=halvings, seed=options.seed)
+
+
+@command.command()
+def hold(
+    arm: ArmArgument,
+    configurations: JointBoxOptions = JointBoxOptions(),
+    friction: FrictionOptions = FrictionOptions(),
+    placement: MountingOptions = MountingOptions(),
+    halvings: JointHalvingsOption = 6,
+    options: ProofOptions = ProofOptions(out=Path("hold.certificate")),
+) -> None:
+    """Prove that an arm without motor torque stays at rest in a box of configurations.
+
+    Joints without a given interval have their whole range. A joint whose interval is one of its limits lies against its stop.
+    Exit code: 0 if everything is proved, 3 if a part is undecided, 4 if the arm moves in a part, 1 if the check rejects a part.
+    Ctrl-C stops and writes the decided parts; with --store, the same command resumes the search.
+
+    Example: holdfast certify hold yam --around "0 60 60 0 0 0" --within 2 --degrees --coulomb 10
+    """
+    model = placement.mount_arm(options.resolve_arm(arm))
+    ranges = configurations.read_box(model)
+    box = [ranges.get(joint.name, (joint.lower, joint.upper)) for joint in model.joints]
+    claim = hf.certificates.hold_claim(model, *zip(*box, strict=True), friction=friction.read_friction(model))
     prove_claim(claim, options, halvings=halvings, seed=options.seed)
 
 

@@ -104,19 +104,19 @@ def present_proof(
         lines += [found_ranges.answer, *found_ranges.lines]
     return Presentation(
         title,
-        f"{answer} {_describe_verification(check, is_refuted)}",
+        f"{answer} {describe_verification(check, is_refuted)}",
         lines=lines,
         facts=[*counts, *facts],
         tables=lambda: [
             _tabulate_parts(proof, check, gaps), *list_tables(), *(found_ranges.list_tables() if found_ranges else ())
         ],
         figures=figures,
-        method=[*method, *_list_check_instructions(document, check, file)],
+        method=[*method, *list_check_instructions(document, check, file)],
         arm=proof.claim.arm,
     )  # fmt: skip
 
 
-def _describe_verification(check: CertificateCheck | None, is_refuted: bool) -> str:
+def describe_verification(check: CertificateCheck | None, is_refuted: bool) -> str:
     """Describe the result of the verification."""
     if check is None:
         return UNVERIFIED_NOTE
@@ -170,7 +170,7 @@ def _name_part(proof: Found, part: Found | LockedPath) -> str:
     return "healthy" if locked < 0 else names[locked]
 
 
-def _list_check_instructions(
+def list_check_instructions(
     document: Mapping[str, Any], check: CertificateCheck | None, file: str | Path
 ) -> list[tuple[str, Any]]:
     """List the digest, the command that checks the certificate, and the versions of the verifier."""
