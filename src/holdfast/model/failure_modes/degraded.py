@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from holdfast.core.caching import cached_property
 from holdfast.core.errors import HoldfastError, InputError
 from holdfast.core.files import output
 from holdfast.core.typing import BoolArray, FloatArray
@@ -95,7 +96,7 @@ class Degraded:
         """Flags (n,) of the joints that are not locked."""
         return np.array([name not in self.locked for name in self.arm.joint_names])
 
-    @property
+    @cached_property
     def limited(self) -> Arm:
         """Arm with the limits and speeds in force; locked joints as if healthy."""
         if not self.ranges and not self.speeds:

@@ -19,6 +19,7 @@ from holdfast.model.arm.poses import check_poses
 from holdfast.model.arm.task import Task, as_task, plane_normal
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.certainty import describe_unknown_shape, name_certain_contacts
+from holdfast.model.collision.exact.exact_clearance import with_exact_distances
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.goals import RelaxedRows
 from holdfast.response.recovery.recovery import RecoveryOutcome
@@ -181,14 +182,11 @@ def parse_goal(
     poses = arm.forward_kinematics(q)[None]
     if has_task or within is not None:
         return RecoveryGoal(f"the end effector's pose at {text}{cone_text}", poses)
-    if (
-        clearance is not None
-        and float(clearance.margin_left(q)) < margin
-        and name_certain_contacts(clearance, q[None], margin)[0]
-    ):
-        raise InputError(
-            f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a collision-free one, or no clearance"
-        )
+    if clearance is not None and float(clearance.margin_left(q)) < margin:
+        exact_clearance = with_exact_distances(clearance, margin) or clearance
+        if float(exact_clearance.margin_left(q)) < margin and name_certain_contacts(exact_clearance, q[None], margin)[0]:
+            contact_text = exact_clearance.too_close(margin, q)
+            raise InputError(f"goal: at that configuration the arm {contact_text}; give a collision-free one, or no clearance")
     joint_errors = np.abs(joint_space.joint_difference(arm, q, np.where(free, np.clip(q, degraded.lo, degraded.hi), q_start)))
     mismatched = np.flatnonzero(np.where(free, joint_errors > 0, joint_errors > LOCK_TOLERANCE))
     if not mismatched.size:

@@ -170,7 +170,7 @@ def recover(
         within,
         task is not None,
         standing,
-        with_exact_distances(clearance_model, margin) or clearance_model,
+        clearance_model,
         margin,
         path,
     )
