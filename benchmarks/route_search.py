@@ -47,7 +47,7 @@ def searches(chosen) -> str:
     proved = 0
     for problem in problems:
         space = FreeSpace(ours.arm, free, ours.cell_clearance(problem), 0.0, np.stack([problem.start, problem.goal]))
-        search = space.compiled_search(metric)
+        search = space.compiled_search(metric, np.stack([problem.start, problem.goal]))
         environment = None if vamp is None else vamp._environment(problem)
         spent: dict[str, list[float]] = {"holdfast": [], "vamp": []}
         length: dict[str, float] = {"holdfast": np.nan, "vamp": np.nan}

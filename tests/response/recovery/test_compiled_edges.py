@@ -147,7 +147,7 @@ def search_between(arm: hf.Arm, cell: hf.Cell | None, free: np.ndarray, q: np.nd
     clearance = hf.Clearance(arm, cell=cell, itself=False)
     space = FreeSpace(arm, free, clearance, 0.0, q)
     metric = JointMetric.for_arm(arm, name, None, free)  # type: ignore[arg-type]
-    search = space.compiled_search(metric)
+    search = space.compiled_search(metric, q)
     assert isinstance(search, RouteSearch)
     return space, metric, search
 
@@ -213,3 +213,33 @@ def test_by_time_the_slowest_joint_counts():
 def test_the_compiled_file_belongs_to_its_source():
     text = native.SOURCE.with_suffix(".ll").read_text()
     assert text.startswith(native.first_line(native.SOURCE.read_bytes()) + "\n"), "run python -m tools.native"
+
+
+def test_with_exact_distances_only_pairs_that_are_too_close_at_an_end_may_overlap(rng):
+    """The capsule of the hand touches a shelf at the goal, although its mesh does not."""
+    pytest.importorskip("coal")
+    from holdfast.model.collision.exact.exact_clearance import with_exact_distances
+    from holdfast.response.recovery.routes import find_route
+
+    arm = hf.arms.load("panda")
+    ends = np.array([[0.9, 0.3, 0.0, -1.9, 0.0, 2.2, 0.8], [-0.9, 0.3, 0.0, -1.9, 0.0, 2.2, 0.8]])
+    tool = arm.forward_kinematics(ends[1])[:3, 3]
+    shelf = Box("shelf", [0.2, 0.2, 0.1], pose=oracles.pose(position=tool - [0, 0, 0.063]))
+    bound = hf.Clearance(arm, cell=hf.Cell([shelf, Sphere("ball", 0.1, pose=[0.6, 0, 0.5])]))
+    exact = with_exact_distances(bound)
+    assert exact is not None
+    assert bound.margin_left(ends[1]) < 0 < exact.margin_left(ends).min()
+    free = np.ones(7, dtype=bool)
+    space, metric = FreeSpace(arm, free, exact, 0.0, ends), JointMetric.for_arm(arm, "travel", None, free)
+    search = space.compiled_search(metric, ends)
+    assert space.edges is None
+    assert search is not None
+    assert search.edges.check_edges(ends, np.zeros_like(ends)).all()
+    q = sample(arm, rng, 3000)
+    is_ball = np.array([name.endswith("ball") for name in bound.pair_names])
+    touches_ball = bound.by_pair(q)[:, is_ball].min(axis=1) < -1e-4
+    assert touches_ball.any()
+    assert not search.edges.check_edges(q, np.zeros_like(q))[touches_ball].any()
+    route = find_route(space, metric, ends[0], ends[1:], 2, rng)
+    assert route is not None
+    assert exact.margin_left(cells.finely(route.q, 0.02)).min() >= 0

@@ -16,7 +16,7 @@ _BATCH_SAMPLES = 48  # samples per round
 _MAX_ROUNDS = 200
 # Largest possible motion between checked configurations and room in addition to what is required, m, and number of samples.
 _SEARCH_LEVELS = ((0.05, 2e-3, 5000), (0.02, 1e-3, 10_000), (0.005, 0.0, 10_000))
-_EXACT_SEARCH_LEVELS = tuple((0.02, -overlap, 5000) for overlap in (0.0, 5e-3, 0.01, 0.02, 0.04))
+_EXACT_SEARCH_LEVELS = tuple((0.02, room, 5000) for room in (1e-3, 0.0, 0.0, -2e-3, -5e-3, -0.01, -0.02, -0.04))
 _FINAL_SHORTENING = (0.01, 2e-4, 200)  # the same two lengths, and shortcuts in a row that do not help
 _MAX_NODES = 12_000  # nodes of both trees together
 _STEP_FRACTION = 0.15  # of the diagonal of the box: length of one step of a tree
@@ -74,7 +74,7 @@ def find_route(
     free_goals = np.flatnonzero(space.are_segments_valid(np.repeat(start[None], len(goals), axis=0), goals)[order])
     best_route: Route | None = None
     closed_in, failure_count = list[str](), 0
-    compiled_search = space.compiled_search(metric)
+    compiled_search = space.compiled_search(metric, np.concatenate([start[None], goals]))
     if free_goals.size:
         nearest = int(order[free_goals[0]])
         best_route = Route(np.stack([start, goals[nearest]]), float(direct_lengths[nearest]), lower_bound, nearest, True)
@@ -96,7 +96,8 @@ def find_route(
         if compiled_search is not None:
             connection = _search_compiled(compiled_search, space, start, goals[closer_goals], rng)
         is_short = connection is not None
-        if connection is None and (compiled_search is None or space.edges is None):
+        is_improvement = compiled_search is not None and best_route is not None  # for which trees in Python take too long
+        if connection is None and not is_improvement and (compiled_search is None or space.edges is None):
             connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
             closed_in.append(space.closed_in)
             if all(closed_in[-2:]) and len(closed_in) > 1:
@@ -147,10 +148,9 @@ def _search_compiled(
     A route is searched with additional room and few checks. If its proof fails, the next search has less room and more
     checks. With exact distances, the spheres around the arm may overlap objects, by more in each search.
     """
-    assert space.search_edges is not None
     for spacing, room, sample_count in _EXACT_SEARCH_LEVELS if space.edges is None else _SEARCH_LEVELS:
         ends = np.concatenate([start[None], goals])
-        has_room = space.search_edges.check_edges(ends, np.zeros_like(ends), room)
+        has_room = search.edges.check_edges(ends, np.zeros_like(ends), room)
         if space.is_time_over or not (has_room[0] and has_room[1:].any()):
             continue
         seed = int(rng.integers(1 << 62))

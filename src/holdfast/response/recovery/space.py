@@ -24,6 +24,7 @@ MetricName = Literal["travel", "time"]
 
 # Possible motion in m between bodies that could collide: a segment that is still undecided at this size counts as blocked.
 MIN_RESOLVED_MOTION_M = 5e-4
+_END_ROOM_M = 1e-3  # room of a pair at the ends of a route with exact distances, in the search
 _MAX_EXTENSION_STEPS = 400  # largest number of pieces of one extension
 _MIN_PROGRESS_FRACTION = 0.1  # of a piece: smallest progress towards its end
 
@@ -96,7 +97,6 @@ class FreeSpace:
     Attributes:
         manifold: Manifold of these constraints; None if there are none.
         edges: Compiled checks and proofs of edges; None if the clearance has meshes, scans, or exact distances.
-        search_edges: Compiled checks for the search of a route; with exact distances those of the bound of the clearance.
         closed_in: ``start`` or ``goal`` if the search from this end was exhausted; see :func:`find_route`.
     """
 
@@ -124,13 +124,8 @@ class FreeSpace:
         self.manifold = ConstraintManifold(arm, constraints, free, limits) if constraints else None
         self._lipschitz_bounds = None if self.clearance is None else self.clearance.lipschitz_bounds(self.low, self.high)
         self.edges: EdgeChecker | None = None
-        self.search_edges: EdgeChecker | None = None
-        if self.clearance is not None and self._lipschitz_bounds is not None:
-            bound = self.clearance.bound if isinstance(self.clearance, ExactClearance) else self.clearance
-            if EdgeChecker.supports(bound):
-                self.search_edges = EdgeChecker(bound, margin, self._lipschitz_bounds)
-                self.edges = self.search_edges if bound is self.clearance else None
-        self._route_search: tuple[JointMetric, RouteSearch] | None = None
+        if self.clearance is not None and self._lipschitz_bounds is not None and EdgeChecker.supports(self.clearance):
+            self.edges = EdgeChecker(self.clearance, margin, self._lipschitz_bounds)
 
     def stop_after(self, seconds: float) -> None:
         """Set the time in seconds after which :attr:`is_time_over` is true."""
@@ -216,16 +211,23 @@ class FreeSpace:
             first_margins = np.concatenate([first_margins, middle_margins])
             last_margins = np.concatenate([middle_margins, last_margins])
 
-    def compiled_search(self, metric: JointMetric) -> RouteSearch | None:
-        """Return the compiled search for routes that are short in a metric; None with constraints or without its checks."""
-        if self.search_edges is None or self.manifold is not None:
+    def compiled_search(self, metric: JointMetric, ends: FloatArray) -> RouteSearch | None:
+        """Return the compiled search for routes between ``ends`` (N, n) that are short in a metric, or None.
+
+        With exact distances, the search uses their bound, in which a pair may be closer than required by as much as it is at
+        one of the ends. There is no search with constraints, meshes, or scans.
+        """
+        edges, clearance = self.edges, self.clearance
+        if isinstance(clearance, ExactClearance) and EdgeChecker.supports(clearance.bound):
+            assert self._lipschitz_bounds is not None
+            lacking = clearance.margins + self.margin - clearance.bound.by_pair(ends).min(axis=0)
+            overlaps = np.where(lacking > 0, lacking + _END_ROOM_M, 0.0)
+            edges = EdgeChecker(clearance.bound, self.margin, self._lipschitz_bounds, overlaps)
+        if edges is None or self.manifold is not None:
             return None
-        if self._route_search is None or self._route_search[0] is not metric:
-            is_unlimited = joint_space.is_unlimited(self.arm) & self.free
-            scale = np.where(self.free, metric.scale, 0.0)
-            search = RouteSearch(self.search_edges, self.low, self.high, scale, is_unlimited, metric.name == "time")
-            self._route_search = metric, search
-        return self._route_search[1]
+        is_unlimited = joint_space.is_unlimited(self.arm) & self.free
+        scale = np.where(self.free, metric.scale, 0.0)
+        return RouteSearch(edges, self.low, self.high, scale, is_unlimited, metric.name == "time")
 
     def extend_paths(
         self, metric: JointMetric, start: FloatArray, directions: FloatArray

@@ -26,10 +26,14 @@ class EdgeChecker:
         clearance: Collision model; see :meth:`supports`.
         margin: Required distance in addition to the margins of objects, m.
         lipschitz_bounds: (P, n) bounds of the change of each pair's distance; see :meth:`Clearance.lipschitz_bounds`.
+        overlaps: (P,) length by which each pair may be closer than required, m. None: 0.
     """
 
-    def __init__(self, clearance: Clearance, margin: float, lipschitz_bounds: FloatArray) -> None:
-        tables = SceneTables.from_clearance(clearance, margin, lipschitz_bounds)
+    def __init__(
+        self, clearance: Clearance, margin: float, lipschitz_bounds: FloatArray, overlaps: FloatArray | None = None
+    ) -> None:
+        no_overlaps = np.zeros(len(lipschitz_bounds))
+        tables = SceneTables.from_clearance(clearance, margin, lipschitz_bounds, no_overlaps if overlaps is None else overlaps)
         self.library = load_library()
         self.single, self._double = CompiledScene(tables, np.float32), CompiledScene(tables, np.float64)
 
@@ -115,7 +119,7 @@ class RouteSearch:
         is_unlimited: BoolArray,
         has_largest_joint_metric: bool,
     ) -> None:
-        self._edges, self._n = edges, len(low)
+        self.edges, self._n = edges, len(low)
         self._arrays = [_pad_rows(values) for values in (low, high, scale, np.where(is_unlimited, 2 * np.pi, 0.0))]
         self._nodes = np.empty((2, _MAX_NODES, MAX_JOINTS), dtype=np.float32)
         self._parents = np.empty((2, _MAX_NODES), dtype=np.int32)
@@ -149,8 +153,8 @@ class RouteSearch:
         problem.max_rounds, problem.max_shortcut_failures = max_rounds, _MAX_SHORTCUT_FAILURES
         problem.sample_spacing, problem.room = spacing, room
         start_row, goal_rows = _pad_rows(start[None]), _pad_rows(goals)
-        count = self._edges.library.search_route(
-            self._edges.single.address,
+        count = self.edges.library.search_route(
+            self.edges.single.address,
             addressof(problem),
             start_row.ctypes.data,
             goal_rows.ctypes.data,
@@ -176,7 +180,7 @@ class RouteSearch:
         problem, route = self._problem, np.zeros((_MAX_WAYPOINTS, MAX_JOINTS), dtype=np.float32)
         problem.max_shortcut_failures, problem.sample_spacing, problem.room = max_failures, spacing, room
         route[: len(q)] = _pad_rows(q)
-        count = self._edges.library.shorten(self._edges.single.address, addressof(problem), route.ctypes.data, len(q), seed)
+        count = self.edges.library.shorten(self.edges.single.address, addressof(problem), route.ctypes.data, len(q), seed)
         return route[:count, : self._n].astype(np.float64)
 
 

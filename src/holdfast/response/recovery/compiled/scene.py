@@ -83,13 +83,16 @@ class SceneTables(NamedTuple):
     pair_allowances: FloatArray
 
     @classmethod
-    def from_clearance(cls, clearance: Clearance, margin: float, lipschitz_bounds: FloatArray) -> SceneTables:
+    def from_clearance(
+        cls, clearance: Clearance, margin: float, lipschitz_bounds: FloatArray, overlaps: FloatArray
+    ) -> SceneTables:
         """Collect the tables of a clearance whose objects all have a distance formula.
 
         Args:
             clearance: Collision model.
             margin: Required distance in addition to the margins of objects, m.
             lipschitz_bounds: (P, n) bounds of the change of each pair's distance; see :meth:`Clearance.lipschitz_bounds`.
+            overlaps: (P,) length by which each pair may be closer than required, m.
         """
         arm, obstacles = clearance.arm, clearance.obstacles
         frames, maps = _joint_frames(arm)
@@ -102,7 +105,8 @@ class SceneTables(NamedTuple):
         radii = np.array([part.radius for part in capsules])
         spans = ends[:, 1] - ends[:, 0]
         checked_pairs = positions[np.array(clearance.pairs, dtype=np.int64).reshape(-1, 2)]
-        link_pairs, pairs, pair_bounds = _group_pairs(checked_pairs, capsule_links, lipschitz_bounds[: len(clearance.pairs)])
+        own_values = np.column_stack([lipschitz_bounds, overlaps])[: len(clearance.pairs)]
+        link_pairs, pairs, pair_values = _group_pairs(checked_pairs, capsule_links, own_values)
         first_sphere, spheres = np.zeros(arm.n + 2, dtype=np.int64), np.zeros((0, 4))
         enclosing = np.tile([0.0, 0.0, 0.0, _EMPTY_RADIUS_M], (arm.n + 1, 1))
         objects, allowances, link_bounds = np.zeros((0, 18)), np.zeros((arm.n + 1, 0)), np.zeros((arm.n + 1, arm.n))
@@ -117,7 +121,9 @@ class SceneTables(NamedTuple):
                 enclosing[link] = _enclose_spheres(spheres[links == link])
             objects = np.array([solid.numbers() for solid in obstacles.cell if isinstance(solid, PrimitiveSolid)])
             own_margins = np.array([obstacles.cell.margin_of(solid) for solid in obstacles.cell])
-            allowances = np.where(obstacles.may_touch, -FAR_AWAY_M, own_margins + margin)
+            required = np.tile(own_margins + margin, (arm.n + 1, 1))
+            required[obstacles.links + 1] -= overlaps[len(clearance.pairs) :].reshape(len(obstacles.links), -1)
+            allowances = np.where(obstacles.may_touch, -FAR_AWAY_M, required)
             link_bounds[obstacles.links + 1] = lipschitz_bounds[len(clearance.pairs) :: len(obstacles.cell)]
         part_enclosing = np.zeros((arm.n + 1, 4))
         for link in np.unique(capsule_links):
@@ -138,8 +144,8 @@ class SceneTables(NamedTuple):
             link_pairs=link_pairs,
             pairs=pairs,
             link_bounds=link_bounds,
-            pair_bounds=pair_bounds,
-            pair_allowances=np.full(len(link_pairs), margin),
+            pair_bounds=pair_values[:, :-1],
+            pair_allowances=margin - pair_values[:, -1],
         )
 
 
@@ -179,15 +185,13 @@ def _enclose_spheres(spheres: FloatArray) -> FloatArray:
     return np.append(middle, (np.linalg.norm(centers - middle, axis=1) + radii).max())
 
 
-def _group_pairs(
-    pairs: IndexArray, links: IndexArray, lipschitz_bounds: FloatArray
-) -> tuple[IndexArray, IndexArray, FloatArray]:
-    """Group pairs (Q, 2) by their links, and return link pairs, pairs and bounds of :class:`SceneTables`."""
+def _group_pairs(pairs: IndexArray, links: IndexArray, values: FloatArray) -> tuple[IndexArray, IndexArray, FloatArray]:
+    """Group pairs (Q, 2) by their links; return link pairs and pairs of :class:`SceneTables`, and the largest values (P, k)."""
     keys = np.column_stack([links[pairs], pairs])
     order = np.lexsort(keys.T[::-1])
     is_first = np.ones(len(pairs), dtype=np.bool_)
     is_first[1:] = (np.diff(keys[order, :2], axis=0) != 0).any(axis=1)
     starts = np.flatnonzero(is_first)
     link_pairs = np.column_stack([keys[order][starts, :2], starts, np.append(starts[1:], len(pairs))[: len(starts)]])
-    bounds = np.maximum.reduceat(lipschitz_bounds[order], starts) if len(pairs) else lipschitz_bounds
-    return link_pairs.astype(np.int64), pairs[order], bounds
+    largest_values = np.maximum.reduceat(values[order], starts) if len(pairs) else values
+    return link_pairs.astype(np.int64), pairs[order], largest_values
