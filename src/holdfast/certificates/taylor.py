@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from holdfast.certificates.expansions import CELL_WIDTH_PARTS, ToolExpansion
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.model.arm.configurations import align_joint_frames
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.poses import rotation_to_axis
 
 CENTER_UNIT = 2.0**-24  # rad: unit of stored centers
 _MAX_TEST_STEPS = 40  # steps of tests, each with several rounds
@@ -45,15 +45,9 @@ class CertificateChain:
     @classmethod
     def from_arm(cls, arm: Arm) -> CertificateChain:
         """Build the chain of an arm, with frames rotated so that every axis is z, and with the base in the first frame."""
-        frames, from_axis = [], np.eye(4)
-        for joint in arm.joints:
-            to_axis = np.eye(4)
-            to_axis[:3, :3] = rotation_to_axis(joint.axis)
-            frames.append(from_axis @ joint.origin @ to_axis)
-            from_axis = to_axis.T
-        frames[0] = arm.base @ frames[0]
-        frames.append(from_axis @ arm.tool)
-        rotations, origins = np.array([frame[:3, :3] for frame in frames]), np.array([frame[:3, 3] for frame in frames])
+        joint_frames, from_links = align_joint_frames(arm)
+        frames = np.concatenate([joint_frames, [from_links[-1] @ arm.tool]])
+        rotations, origins = frames[:, :3, :3], frames[:, :3, 3]
         return cls(rotations, origins, link_lengths(rotations, list(origins[1:]), arm.prismatic), arm.prismatic)
 
     def closest_points_on_axes(self, joint: int) -> tuple[float, float] | None:

@@ -11,7 +11,7 @@ import dataclasses
 import functools
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
 from inspect import getattr_static
 from pathlib import Path
@@ -28,7 +28,7 @@ _PACKAGE_FOLDER = Path(__file__).parents[1]
 _UNRELATED_FOLDERS = {"interface", "__pycache__"}  # no expression is built there, and lower layers do not import them
 
 
-_known: WeakKeyDictionary[object, tuple[bytes, ...]] = WeakKeyDictionary()
+_known: WeakKeyDictionary[object, bytes] = WeakKeyDictionary()
 
 
 class _NoDigestError(Exception):
@@ -38,13 +38,17 @@ class _NoDigestError(Exception):
 def fingerprint(*parts: object) -> str | None:
     """Return the SHA-256 of the inputs of a computation; None if any input has no digest."""
     try:
-        hasher = hashlib.sha256(_sources_digest().encode())
-        for part in parts:
-            for block in _bytes_to_hash(part, ()):
-                hasher.update(len(block).to_bytes(8, "little") + block)
+        blocks = (block for part in (_sources_digest(), *parts) for block in _bytes_to_hash(part, ()))
+        return _hash_blocks(blocks).hex()
     except _NoDigestError:
         return None
-    return hasher.hexdigest()
+
+
+def _hash_blocks(blocks: Iterable[bytes]) -> bytes:
+    hasher = hashlib.sha256()
+    for block in blocks:
+        hasher.update(len(block).to_bytes(8, "little") + block)
+    return hasher.digest()
 
 
 @functools.lru_cache(maxsize=1)
@@ -103,8 +107,8 @@ def _bytes_to_hash(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield str(x).encode()
     elif _compares_by_identity(kind):  # an arm, which is part of everything that is made for it
         if x not in _known:
-            _known[x] = tuple(_object_blocks(x, inside))
-        yield from _known[x]
+            _known[x] = _hash_blocks(_object_blocks(x, inside))
+        yield _known[x]
     else:
         yield from _object_blocks(x, inside)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import chromium
 import holdfast as hf
 from holdfast import arms
 from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
@@ -78,3 +79,10 @@ def page_arm(tmp_path_factory):
         return PageArm(hf.Arm.from_urdf(CRANE) if label == "crane" else arms.load(label), folder, task)
 
     return make
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A running headless Chromium."""
+    with chromium.opened(chromium.required) as opened:
+        yield opened

@@ -5,16 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import chromium
 from holdfast import arms
 
 PAGE = "document.querySelector('.arm').armPage"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium.opened(chromium.required) as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -11,7 +11,6 @@ import pytest
 import yaml
 
 import axe
-import chromium
 import holdfast as hf
 from holdfast import arms
 from holdfast.core.errors import HoldfastError
@@ -25,12 +24,6 @@ LAST = "document.querySelector('.arm').armPage"
 @pytest.fixture(scope="module")
 def panda_html():
     return arms.load("panda").page().to_html()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium.opened(chromium.required) as opened:
-        yield opened
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Configurations, finite joint limits to sample between, and lengths that bound how far a joint moves a point."""
+"""Configurations, finite joint limits to sample between, frames along the axes, and bounds of distances from the axes."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.machine import ArmData
+from holdfast.model.arm.poses import rotation_to_axis
 
 Length = TypeVar("Length", bound=Any)  # a number or a symbolic expression, m
 
@@ -39,6 +40,24 @@ def replace_infinite_limits(lower: FloatArray, upper: FloatArray, prismatic: Boo
     finite_lower = np.where(np.isfinite(lower), lower, np.minimum(-default_bound, upper - default_bound))
     finite_upper = np.where(np.isfinite(upper), upper, np.maximum(default_bound, lower + default_bound))
     return finite_lower, finite_upper
+
+
+def align_joint_frames(arm: ArmData) -> tuple[FloatArray, FloatArray]:
+    """Return the frames of all joints, rotated so that each joint's axis is z, and the poses of the links' own frames in them.
+
+    Returns:
+        (n, 4, 4) pose at q = 0 of each rotated frame in the previous one, the first in the world; and (n + 1, 4, 4) pose of the
+        base's frame in the world, and of the frame of each link in its rotated frame, m.
+    """
+    frames, from_link, from_links = [], np.eye(4), [arm.base]
+    for joint in arm.joints:
+        to_axis = np.eye(4)
+        to_axis[:3, :3] = rotation_to_axis(joint.axis)
+        frames.append(from_link @ joint.origin @ to_axis)
+        from_link = to_axis.T
+        from_links.append(from_link)
+    frames[0] = arm.base @ frames[0]
+    return np.array(frames), np.array(from_links)
 
 
 def bound_axis_distances(arm: ArmData, end_length: Length, extensions: Sequence[Length]) -> list[Length]:

@@ -96,8 +96,9 @@ def find_route(
         if compiled_search is not None:
             connection = _search_compiled(compiled_search, space, start, goals[closer_goals], rng)
         is_short = connection is not None
-        is_improvement = compiled_search is not None and best_route is not None  # for which trees in Python take too long
-        if connection is None and not is_improvement and (compiled_search is None or space.edges is None):
+        # With exact distances, trees in Python are only worth their time while there is no route.
+        needs_trees = compiled_search is None or (space.edges is None and best_route is None)
+        if connection is None and needs_trees:
             connection = _search_bidirectional_trees(space, metric, start, goals[closer_goals], rng)
             closed_in.append(space.closed_in)
             if all(closed_in[-2:]) and len(closed_in) > 1:

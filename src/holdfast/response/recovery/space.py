@@ -165,7 +165,8 @@ class FreeSpace:
 
         If a pair is d_1 and d_2 apart at two configurations, it is never closer than ``(d_1 + d_2 - L) / 2`` in between, where
         L bounds the change of its distance along the segment (:meth:`Clearance.lipschitz_bounds`). Pieces for which this bound
-        does not suffice are bisected, until it does or L is below half a millimetre: such a piece counts as blocked.
+        does not suffice are bisected, until it does or L is below half a millimetre: such a piece counts as blocked. Compiled
+        code (:attr:`edges`) uses the distance d in the middle of a piece instead: a pair is never closer than ``d - L / 2``.
         """
         is_valid: BoolArray = self.are_within_limits(a) & self.are_within_limits(b)
         if self.manifold is not None and is_valid.any():
@@ -214,16 +215,18 @@ class FreeSpace:
     def compiled_search(self, metric: JointMetric, ends: FloatArray) -> RouteSearch | None:
         """Return the compiled search for routes between ``ends`` (N, n) that are short in a metric, or None.
 
-        With exact distances, the search uses their bound, in which a pair may be closer than required by as much as it is at
-        one of the ends. There is no search with constraints, meshes, or scans.
+        With exact distances, the search uses their lower bounds. A pair whose bound is too small at one of the ends may be as
+        close along the whole route. The result is None with constraints, meshes, or scans.
         """
+        if self.manifold is not None:
+            return None
         edges, clearance = self.edges, self.clearance
         if isinstance(clearance, ExactClearance) and EdgeChecker.supports(clearance.bound):
             assert self._lipschitz_bounds is not None
             lacking = clearance.margins + self.margin - clearance.bound.by_pair(ends).min(axis=0)
             overlaps = np.where(lacking > 0, lacking + _END_ROOM_M, 0.0)
             edges = EdgeChecker(clearance.bound, self.margin, self._lipschitz_bounds, overlaps)
-        if edges is None or self.manifold is not None:
+        if edges is None:
             return None
         is_unlimited = joint_space.is_unlimited(self.arm) & self.free
         scale = np.where(self.free, metric.scale, 0.0)

@@ -233,17 +233,11 @@ template <class T> INLINE T weighted_sum(Int count, const T *bounds, const T *va
   return total;
 }
 
-template <class T>
-static void bound_motion(const Scene<T> &scene, const T *difference, const T *deviation, Motion<T> &motion) {
+// Bound the motion of every link, and the change of the distance of every pair of links, for ``values`` of the joints' motions.
+template <class T> static void bound_motion(const Scene<T> &scene, const T *values, T *links, T *pairs) {
   const Int n = scene.joint_count;
-  for (Int link = 0; link <= n; link++) {
-    motion.link[link] = weighted_sum(n, scene.link_bounds + link * n, difference);
-    motion.link_deviation[link] = weighted_sum(n, scene.link_bounds + link * n, deviation);
-  }
-  for (Int k = 0; k < scene.link_pair_count; k++) {
-    motion.pair[k] = weighted_sum(n, scene.pair_bounds + k * n, difference);
-    motion.pair_deviation[k] = weighted_sum(n, scene.pair_bounds + k * n, deviation);
-  }
+  for (Int link = 0; link <= n; link++) links[link] = weighted_sum(n, scene.link_bounds + link * n, values);
+  for (Int k = 0; k < scene.link_pair_count; k++) pairs[k] = weighted_sum(n, scene.pair_bounds + k * n, values);
 }
 
 template <class T> static T find_largest_motion(const Scene<T> &scene, const Motion<T> &motion) {
@@ -331,8 +325,7 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
 static bool is_edge_free(const Scene<float> &scene, const float *start, const float *difference, float spacing, float room) {
   typedef Lanes<float>::V V;
   Motion<float> motion;
-  const float none[MAX_JOINTS] = {};
-  bound_motion(scene, difference, none, motion);
+  bound_motion(scene, difference, motion.link, motion.pair);
   for (float &deviation : motion.link_deviation) deviation = room;
   for (float &deviation : motion.pair_deviation) deviation = room;
   const Int blocks = Int(find_largest_motion(scene, motion) / (spacing * Lanes<float>::COUNT)) + 1;
@@ -354,7 +347,8 @@ static bool prove_edge(const Scene<double> &scene, const double *start, const do
   typedef Lanes<double>::V V;
   constexpr Int COUNT = Lanes<double>::COUNT;
   Motion<double> motion;
-  bound_motion(scene, difference, deviation, motion);
+  bound_motion(scene, difference, motion.link, motion.pair);
+  bound_motion(scene, deviation, motion.link_deviation, motion.pair_deviation);
   const double largest = find_largest_motion(scene, motion);
   struct Piece { double middle, half; } waiting[MAX_PIECES];
   Int count = 0;

@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 b477ce411cefce44eedcb15cafeeede618ae2eaa75423c66da648d58649850f8, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 8a3f0e1f6afa05e0bf6d6d916b32f92968515a9ccbc9ac0fc0c5cfe4bbd024c0, by tools/native.py. Do not edit.
 
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
 %struct.Motion = type { [17 x float], [17 x float], [136 x float], [136 x float] }
@@ -49,1489 +49,1426 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
   %7 = alloca [2 x i64], align 16
   %8 = alloca [9 x <16 x float>], align 64
   %9 = alloca %struct.Motion, align 4
-  %10 = alloca [16 x float], align 16
-  %11 = alloca [17 x %struct.Frame], align 64
+  %10 = alloca [17 x %struct.Frame], align 64
   call void @llvm.lifetime.start.p0(i64 1224, ptr nonnull %9)
-  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %10)
-  call void @llvm.memset.p0.i64(ptr noundef nonnull align 16 dereferenceable(64) %10, i8 0, i64 64, i1 false)
+  %11 = getelementptr inbounds i8, ptr %9, i64 136
   %12 = load i64, ptr %0, align 8
   %13 = icmp slt i64 %12, 0
-  br i1 %13, label %19, label %14
+  br i1 %13, label %18, label %14
 
 14:
   %15 = getelementptr inbounds i8, ptr %0, i64 112
   %16 = icmp eq i64 %12, 0
-  %17 = getelementptr inbounds i8, ptr %9, i64 68
-  %18 = load ptr, ptr %15, align 8
-  br label %29
+  %17 = load ptr, ptr %15, align 8
+  br label %26
 
-19:
-  %20 = getelementptr inbounds i8, ptr %0, i64 16
-  %21 = load i64, ptr %20, align 8
-  %22 = icmp sgt i64 %21, 0
-  br i1 %22, label %23, label %111
+18:
+  %19 = getelementptr inbounds i8, ptr %0, i64 16
+  %20 = load i64, ptr %19, align 8
+  %21 = icmp sgt i64 %20, 0
+  br i1 %21, label %22, label %72
 
-23:
-  %24 = getelementptr inbounds i8, ptr %0, i64 120
-  %25 = icmp sgt i64 %12, 0
-  %26 = getelementptr inbounds i8, ptr %9, i64 136
-  %27 = getelementptr inbounds i8, ptr %9, i64 680
-  %28 = load ptr, ptr %24, align 8
-  br label %70
+22:
+  %23 = getelementptr inbounds i8, ptr %0, i64 120
+  %24 = icmp sgt i64 %12, 0
+  %25 = load ptr, ptr %23, align 8
+  br label %49
 
-29:
-  %30 = phi i64 [ 0, %14 ], [ %68, %65 ]
-  %31 = mul nuw nsw i64 %30, %12
-  %32 = getelementptr inbounds float, ptr %18, i64 %31
-  br i1 %16, label %33, label %35
+26:
+  %27 = phi i64 [ 0, %14 ], [ %47, %44 ]
+  %28 = mul nuw nsw i64 %27, %12
+  %29 = getelementptr inbounds float, ptr %17, i64 %28
+  br i1 %16, label %44, label %30
 
-33:
-  %34 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %30
-  store float 0.000000e+00, ptr %34, align 4
-  br label %65
+30:
+  %31 = phi i64 [ %42, %30 ], [ 0, %26 ]
+  %32 = phi float [ %41, %30 ], [ 0.000000e+00, %26 ]
+  %33 = getelementptr inbounds float, ptr %29, i64 %31
+  %34 = load float, ptr %33, align 4
+  %35 = getelementptr inbounds float, ptr %2, i64 %31
+  %36 = load float, ptr %35, align 4
+  %37 = fcmp contract olt float %36, 0.000000e+00
+  %38 = fneg contract float %36
+  %39 = select contract i1 %37, float %38, float %36
+  %40 = fmul contract float %34, %39
+  %41 = fadd contract float %32, %40
+  %42 = add nuw nsw i64 %31, 1
+  %43 = icmp eq i64 %42, %12
+  br i1 %43, label %44, label %30
 
-35:
-  %36 = phi i64 [ %47, %35 ], [ 0, %29 ]
-  %37 = phi float [ %46, %35 ], [ 0.000000e+00, %29 ]
-  %38 = getelementptr inbounds float, ptr %32, i64 %36
-  %39 = load float, ptr %38, align 4
-  %40 = getelementptr inbounds float, ptr %2, i64 %36
-  %41 = load float, ptr %40, align 4
-  %42 = fcmp contract olt float %41, 0.000000e+00
-  %43 = fneg contract float %41
-  %44 = select contract i1 %42, float %43, float %41
-  %45 = fmul contract float %39, %44
-  %46 = fadd contract float %37, %45
-  %47 = add nuw nsw i64 %36, 1
-  %48 = icmp eq i64 %47, %12
-  br i1 %48, label %49, label %35
+44:
+  %45 = phi float [ 0.000000e+00, %26 ], [ %41, %30 ]
+  %46 = getelementptr inbounds float, ptr %9, i64 %27
+  store float %45, ptr %46, align 4
+  %47 = add nuw i64 %27, 1
+  %48 = icmp eq i64 %27, %12
+  br i1 %48, label %18, label %26
 
 49:
-  %50 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %30
-  store float %46, ptr %50, align 4
-  br label %51
+  %50 = phi i64 [ 0, %22 ], [ %70, %67 ]
+  %51 = mul nsw i64 %50, %12
+  %52 = getelementptr inbounds float, ptr %25, i64 %51
+  br i1 %24, label %53, label %67
 
-51:
-  %52 = phi i64 [ %63, %51 ], [ 0, %49 ]
-  %53 = phi float [ %62, %51 ], [ 0.000000e+00, %49 ]
-  %54 = getelementptr inbounds float, ptr %32, i64 %52
-  %55 = load float, ptr %54, align 4
-  %56 = getelementptr inbounds float, ptr %10, i64 %52
+53:
+  %54 = phi i64 [ %65, %53 ], [ 0, %49 ]
+  %55 = phi float [ %64, %53 ], [ 0.000000e+00, %49 ]
+  %56 = getelementptr inbounds float, ptr %52, i64 %54
   %57 = load float, ptr %56, align 4
-  %58 = fcmp contract olt float %57, 0.000000e+00
-  %59 = fneg contract float %57
-  %60 = select contract i1 %58, float %59, float %57
-  %61 = fmul contract float %55, %60
-  %62 = fadd contract float %53, %61
-  %63 = add nuw nsw i64 %52, 1
-  %64 = icmp eq i64 %63, %12
-  br i1 %64, label %65, label %51
+  %58 = getelementptr inbounds float, ptr %2, i64 %54
+  %59 = load float, ptr %58, align 4
+  %60 = fcmp contract olt float %59, 0.000000e+00
+  %61 = fneg contract float %59
+  %62 = select contract i1 %60, float %61, float %59
+  %63 = fmul contract float %57, %62
+  %64 = fadd contract float %55, %63
+  %65 = add nuw nsw i64 %54, 1
+  %66 = icmp eq i64 %65, %12
+  br i1 %66, label %67, label %53
 
-65:
-  %66 = phi float [ 0.000000e+00, %33 ], [ %62, %51 ]
-  %67 = getelementptr inbounds [17 x float], ptr %17, i64 0, i64 %30
-  store float %66, ptr %67, align 4
-  %68 = add nuw i64 %30, 1
-  %69 = icmp eq i64 %30, %12
-  br i1 %69, label %19, label %29
+67:
+  %68 = phi float [ 0.000000e+00, %49 ], [ %64, %53 ]
+  %69 = getelementptr inbounds float, ptr %11, i64 %50
+  store float %68, ptr %69, align 4
+  %70 = add nuw nsw i64 %50, 1
+  %71 = icmp eq i64 %70, %20
+  br i1 %71, label %72, label %49
 
-70:
-  %71 = phi i64 [ 0, %23 ], [ %109, %106 ]
-  %72 = mul nsw i64 %71, %12
-  %73 = getelementptr inbounds float, ptr %28, i64 %72
-  br i1 %25, label %76, label %74
+72:
+  br label %73
 
-74:
-  %75 = getelementptr inbounds [136 x float], ptr %26, i64 0, i64 %71
-  store float 0.000000e+00, ptr %75, align 4
-  br label %106
+73:
+  %74 = phi i64 [ %76, %73 ], [ 68, %72 ]
+  %75 = getelementptr inbounds i8, ptr %9, i64 %74
+  store float %4, ptr %75, align 4
+  %76 = add nuw nsw i64 %74, 4
+  %77 = icmp eq i64 %76, 136
+  br i1 %77, label %107, label %73
 
-76:
-  %77 = phi i64 [ %88, %76 ], [ 0, %70 ]
-  %78 = phi float [ %87, %76 ], [ 0.000000e+00, %70 ]
-  %79 = getelementptr inbounds float, ptr %73, i64 %77
-  %80 = load float, ptr %79, align 4
-  %81 = getelementptr inbounds float, ptr %2, i64 %77
-  %82 = load float, ptr %81, align 4
-  %83 = fcmp contract olt float %82, 0.000000e+00
-  %84 = fneg contract float %82
-  %85 = select contract i1 %83, float %84, float %82
-  %86 = fmul contract float %80, %85
-  %87 = fadd contract float %78, %86
-  %88 = add nuw nsw i64 %77, 1
-  %89 = icmp eq i64 %88, %12
-  br i1 %89, label %90, label %76
+78:
+  br i1 %13, label %79, label %81
+
+79:
+  %80 = phi float [ 0.000000e+00, %78 ], [ %87, %81 ]
+  br i1 %21, label %90, label %99
+
+81:
+  %82 = phi i64 [ %88, %81 ], [ 0, %78 ]
+  %83 = phi float [ %87, %81 ], [ 0.000000e+00, %78 ]
+  %84 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %82
+  %85 = load float, ptr %84, align 4
+  %86 = fcmp contract ogt float %85, %83
+  %87 = select i1 %86, float %85, float %83
+  %88 = add nuw i64 %82, 1
+  %89 = icmp eq i64 %82, %12
+  br i1 %89, label %79, label %81
 
 90:
-  %91 = getelementptr inbounds [136 x float], ptr %26, i64 0, i64 %71
-  store float %87, ptr %91, align 4
-  br label %92
+  %91 = phi i64 [ %97, %90 ], [ 0, %79 ]
+  %92 = phi float [ %96, %90 ], [ %80, %79 ]
+  %93 = getelementptr inbounds [136 x float], ptr %11, i64 0, i64 %91
+  %94 = load float, ptr %93, align 4
+  %95 = fcmp contract ogt float %94, %92
+  %96 = select i1 %95, float %94, float %92
+  %97 = add nuw nsw i64 %91, 1
+  %98 = icmp eq i64 %97, %20
+  br i1 %98, label %99, label %90
 
-92:
-  %93 = phi i64 [ %104, %92 ], [ 0, %90 ]
-  %94 = phi float [ %103, %92 ], [ 0.000000e+00, %90 ]
-  %95 = getelementptr inbounds float, ptr %73, i64 %93
-  %96 = load float, ptr %95, align 4
-  %97 = getelementptr inbounds float, ptr %10, i64 %93
-  %98 = load float, ptr %97, align 4
-  %99 = fcmp contract olt float %98, 0.000000e+00
-  %100 = fneg contract float %98
-  %101 = select contract i1 %99, float %100, float %98
-  %102 = fmul contract float %96, %101
-  %103 = fadd contract float %94, %102
-  %104 = add nuw nsw i64 %93, 1
-  %105 = icmp eq i64 %104, %12
-  br i1 %105, label %106, label %92
+99:
+  %100 = phi float [ %80, %79 ], [ %96, %90 ]
+  %101 = fmul contract float %3, 1.600000e+01
+  %102 = fdiv contract float %100, %101
+  %103 = fptosi float %102 to i64
+  %104 = add i64 %103, 1
+  %105 = shl nsw i64 %104, 4
+  %106 = sitofp i64 %105 to float
+  br label %153
 
-106:
-  %107 = phi float [ 0.000000e+00, %74 ], [ %103, %92 ]
-  %108 = getelementptr inbounds [136 x float], ptr %27, i64 0, i64 %71
-  store float %107, ptr %108, align 4
-  %109 = add nuw nsw i64 %71, 1
-  %110 = icmp eq i64 %109, %21
-  br i1 %110, label %111, label %70
-
-111:
-  br label %112
+107:
+  %108 = phi i64 [ %110, %107 ], [ 680, %73 ]
+  %109 = getelementptr inbounds i8, ptr %9, i64 %108
+  store float %4, ptr %109, align 4
+  %110 = add nuw nsw i64 %108, 4
+  %111 = icmp eq i64 %110, 1224
+  br i1 %111, label %78, label %107
 
 112:
-  %113 = phi i64 [ %115, %112 ], [ 68, %111 ]
-  %114 = getelementptr inbounds i8, ptr %9, i64 %113
-  store float %4, ptr %114, align 4
-  %115 = add nuw nsw i64 %113, 4
-  %116 = icmp eq i64 %115, 136
-  br i1 %116, label %148, label %112
+  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %10)
+  %113 = icmp slt i64 %103, 0
+  br i1 %113, label %1234, label %114
 
-117:
-  br i1 %13, label %118, label %122
-
-118:
-  %119 = phi float [ 0.000000e+00, %117 ], [ %128, %122 ]
-  br i1 %22, label %120, label %140
-
-120:
-  %121 = getelementptr inbounds i8, ptr %9, i64 136
-  br label %131
-
-122:
-  %123 = phi i64 [ %129, %122 ], [ 0, %117 ]
-  %124 = phi float [ %128, %122 ], [ 0.000000e+00, %117 ]
-  %125 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %123
-  %126 = load float, ptr %125, align 4
-  %127 = fcmp contract ogt float %126, %124
-  %128 = select i1 %127, float %126, float %124
-  %129 = add nuw i64 %123, 1
-  %130 = icmp eq i64 %123, %12
-  br i1 %130, label %118, label %122
-
-131:
-  %132 = phi i64 [ 0, %120 ], [ %138, %131 ]
-  %133 = phi float [ %119, %120 ], [ %137, %131 ]
-  %134 = getelementptr inbounds [136 x float], ptr %121, i64 0, i64 %132
-  %135 = load float, ptr %134, align 4
-  %136 = fcmp contract ogt float %135, %133
-  %137 = select i1 %136, float %135, float %133
-  %138 = add nuw nsw i64 %132, 1
-  %139 = icmp eq i64 %138, %21
-  br i1 %139, label %140, label %131
-
-140:
-  %141 = phi float [ %119, %118 ], [ %137, %131 ]
-  %142 = fmul contract float %3, 1.600000e+01
-  %143 = fdiv contract float %141, %142
-  %144 = fptosi float %143 to i64
-  %145 = add i64 %144, 1
-  %146 = shl nsw i64 %145, 4
-  %147 = sitofp i64 %146 to float
-  br label %195
-
-148:
-  %149 = phi i64 [ %151, %148 ], [ 680, %112 ]
-  %150 = getelementptr inbounds i8, ptr %9, i64 %149
-  store float %4, ptr %150, align 4
-  %151 = add nuw nsw i64 %149, 4
-  %152 = icmp eq i64 %151, 1224
-  br i1 %152, label %117, label %148
+114:
+  %115 = fdiv contract float 1.000000e+00, %106
+  %116 = insertelement <16 x float> poison, float %115, i64 0
+  %117 = shufflevector <16 x float> %116, <16 x float> poison, <16 x i32> zeroinitializer
+  %118 = getelementptr inbounds i8, ptr %10, i64 576
+  %119 = icmp sgt i64 %12, 0
+  %120 = getelementptr inbounds i8, ptr %0, i64 24
+  %121 = load ptr, ptr %120, align 8
+  %122 = fmul contract <16 x float> %159, zeroinitializer
+  %123 = fmul contract <16 x float> %122, zeroinitializer
+  %124 = icmp slt i64 %12, 1
+  %125 = getelementptr inbounds i8, ptr %0, i64 48
+  %126 = load ptr, ptr %125, align 8
+  %127 = getelementptr inbounds i8, ptr %9, i64 68
+  %128 = getelementptr inbounds i8, ptr %0, i64 8
+  %129 = load i64, ptr %128, align 8
+  %130 = icmp sgt i64 %129, 0
+  %131 = getelementptr inbounds i8, ptr %0, i64 56
+  %132 = load ptr, ptr %131, align 8
+  %133 = getelementptr inbounds i8, ptr %0, i64 64
+  %134 = load ptr, ptr %133, align 8
+  %135 = getelementptr inbounds i8, ptr %0, i64 32
+  %136 = load ptr, ptr %135, align 8
+  %137 = getelementptr inbounds i8, ptr %0, i64 40
+  %138 = load ptr, ptr %137, align 8
+  %139 = getelementptr inbounds i8, ptr %0, i64 96
+  %140 = load ptr, ptr %139, align 8
+  %141 = getelementptr inbounds i8, ptr %0, i64 88
+  %142 = load ptr, ptr %141, align 8
+  %143 = getelementptr inbounds i8, ptr %9, i64 680
+  %144 = getelementptr inbounds i8, ptr %0, i64 128
+  %145 = load ptr, ptr %144, align 8
+  %146 = getelementptr inbounds i8, ptr %7, i64 8
+  %147 = getelementptr inbounds i8, ptr %0, i64 80
+  %148 = load ptr, ptr %147, align 8
+  %149 = getelementptr inbounds i8, ptr %0, i64 72
+  %150 = load ptr, ptr %149, align 8
+  %151 = getelementptr inbounds i8, ptr %0, i64 104
+  %152 = load ptr, ptr %151, align 8
+  br label %166
 
 153:
-  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %11)
-  %154 = icmp slt i64 %144, 0
-  br i1 %154, label %1276, label %155
+  %154 = phi i64 [ 0, %99 ], [ %160, %153 ]
+  %155 = phi <16 x float> [ undef, %99 ], [ %159, %153 ]
+  %156 = mul nsw i64 %154, %104
+  %157 = add nsw i64 %156, 1
+  %158 = sitofp i64 %157 to float
+  %159 = insertelement <16 x float> %155, float %158, i64 %154
+  %160 = add nuw nsw i64 %154, 1
+  %161 = icmp eq i64 %160, 16
+  br i1 %161, label %112, label %153
 
-155:
-  %156 = fdiv contract float 1.000000e+00, %147
-  %157 = insertelement <16 x float> poison, float %156, i64 0
-  %158 = shufflevector <16 x float> %157, <16 x float> poison, <16 x i32> zeroinitializer
-  %159 = getelementptr inbounds i8, ptr %11, i64 576
-  %160 = icmp sgt i64 %12, 0
-  %161 = getelementptr inbounds i8, ptr %0, i64 24
-  %162 = load ptr, ptr %161, align 8
-  %163 = fmul contract <16 x float> %201, zeroinitializer
-  %164 = fmul contract <16 x float> %163, zeroinitializer
-  %165 = icmp slt i64 %12, 1
-  %166 = getelementptr inbounds i8, ptr %0, i64 48
-  %167 = load ptr, ptr %166, align 8
-  %168 = getelementptr inbounds i8, ptr %9, i64 68
-  %169 = getelementptr inbounds i8, ptr %0, i64 8
-  %170 = load i64, ptr %169, align 8
-  %171 = icmp sgt i64 %170, 0
-  %172 = getelementptr inbounds i8, ptr %0, i64 56
-  %173 = load ptr, ptr %172, align 8
-  %174 = getelementptr inbounds i8, ptr %0, i64 64
-  %175 = load ptr, ptr %174, align 8
-  %176 = getelementptr inbounds i8, ptr %0, i64 32
-  %177 = load ptr, ptr %176, align 8
-  %178 = getelementptr inbounds i8, ptr %0, i64 40
-  %179 = load ptr, ptr %178, align 8
-  %180 = getelementptr inbounds i8, ptr %0, i64 96
-  %181 = load ptr, ptr %180, align 8
-  %182 = getelementptr inbounds i8, ptr %0, i64 88
-  %183 = load ptr, ptr %182, align 8
-  %184 = getelementptr inbounds i8, ptr %9, i64 136
-  %185 = getelementptr inbounds i8, ptr %9, i64 680
-  %186 = getelementptr inbounds i8, ptr %0, i64 128
-  %187 = load ptr, ptr %186, align 8
-  %188 = getelementptr inbounds i8, ptr %7, i64 8
-  %189 = getelementptr inbounds i8, ptr %0, i64 80
-  %190 = load ptr, ptr %189, align 8
-  %191 = getelementptr inbounds i8, ptr %0, i64 72
-  %192 = load ptr, ptr %191, align 8
-  %193 = getelementptr inbounds i8, ptr %0, i64 104
-  %194 = load ptr, ptr %193, align 8
-  br label %208
+162:
+  %163 = add nuw i64 %168, 1
+  %164 = icmp sge i64 %168, %103
+  %165 = icmp eq i64 %168, %103
+  br i1 %165, label %1234, label %166
 
-195:
-  %196 = phi i64 [ 0, %140 ], [ %202, %195 ]
-  %197 = phi <16 x float> [ undef, %140 ], [ %201, %195 ]
-  %198 = mul nsw i64 %196, %145
-  %199 = add nsw i64 %198, 1
-  %200 = sitofp i64 %199 to float
-  %201 = insertelement <16 x float> %197, float %200, i64 %196
-  %202 = add nuw nsw i64 %196, 1
-  %203 = icmp eq i64 %202, 16
-  br i1 %203, label %153, label %195
+166:
+  %167 = phi i1 [ false, %114 ], [ %164, %162 ]
+  %168 = phi i64 [ 0, %114 ], [ %163, %162 ]
+  %169 = uitofp nneg i64 %168 to float
+  %170 = insertelement <16 x float> poison, float %169, i64 0
+  %171 = shufflevector <16 x float> %170, <16 x float> poison, <16 x i32> zeroinitializer
+  %172 = fadd contract <16 x float> %159, %171
+  %173 = fmul contract <16 x float> %117, %172
+  %174 = fmul contract <16 x float> %173, zeroinitializer
+  br label %175
 
-204:
-  %205 = add nuw i64 %210, 1
-  %206 = icmp sge i64 %210, %144
-  %207 = icmp eq i64 %210, %144
-  br i1 %207, label %1276, label %208
+175:
+  %176 = phi i64 [ 0, %166 ], [ %184, %175 ]
+  %177 = and i64 %176, 3
+  %178 = icmp eq i64 %177, 0
+  %179 = uitofp i1 %178 to float
+  %180 = insertelement <16 x float> poison, float %179, i64 0
+  %181 = shufflevector <16 x float> %180, <16 x float> poison, <16 x i32> zeroinitializer
+  %182 = fadd contract <16 x float> %174, %181
+  %183 = getelementptr inbounds [9 x <16 x float>], ptr %10, i64 0, i64 %176
+  store <16 x float> %182, ptr %183, align 64
+  %184 = add nuw nsw i64 %176, 1
+  %185 = icmp eq i64 %184, 9
+  br i1 %185, label %187, label %175
 
-208:
-  %209 = phi i1 [ false, %155 ], [ %206, %204 ]
-  %210 = phi i64 [ 0, %155 ], [ %205, %204 ]
-  %211 = uitofp nneg i64 %210 to float
-  %212 = insertelement <16 x float> poison, float %211, i64 0
-  %213 = shufflevector <16 x float> %212, <16 x float> poison, <16 x i32> zeroinitializer
-  %214 = fadd contract <16 x float> %201, %213
-  %215 = fmul contract <16 x float> %158, %214
-  %216 = fmul contract <16 x float> %215, zeroinitializer
-  br label %217
+186:
+  br i1 %119, label %192, label %721
 
-217:
-  %218 = phi i64 [ 0, %208 ], [ %226, %217 ]
-  %219 = and i64 %218, 3
-  %220 = icmp eq i64 %219, 0
-  %221 = uitofp i1 %220 to float
-  %222 = insertelement <16 x float> poison, float %221, i64 0
-  %223 = shufflevector <16 x float> %222, <16 x float> poison, <16 x i32> zeroinitializer
-  %224 = fadd contract <16 x float> %216, %223
-  %225 = getelementptr inbounds [9 x <16 x float>], ptr %11, i64 0, i64 %218
-  store <16 x float> %224, ptr %225, align 64
-  %226 = add nuw nsw i64 %218, 1
-  %227 = icmp eq i64 %226, 9
-  br i1 %227, label %229, label %217
+187:
+  %188 = phi i64 [ %190, %187 ], [ 0, %175 ]
+  %189 = getelementptr inbounds [3 x <16 x float>], ptr %118, i64 0, i64 %188
+  store <16 x float> %174, ptr %189, align 64
+  %190 = add nuw nsw i64 %188, 1
+  %191 = icmp eq i64 %190, 3
+  br i1 %191, label %186, label %187
 
-228:
-  br i1 %160, label %234, label %763
-
-229:
-  %230 = phi i64 [ %232, %229 ], [ 0, %217 ]
-  %231 = getelementptr inbounds [3 x <16 x float>], ptr %159, i64 0, i64 %230
-  store <16 x float> %216, ptr %231, align 64
-  %232 = add nuw nsw i64 %230, 1
-  %233 = icmp eq i64 %232, 3
-  br i1 %233, label %228, label %229
-
-234:
-  %235 = phi i64 [ %238, %430 ], [ 0, %228 ]
-  %236 = getelementptr inbounds %struct.Joint, ptr %162, i64 %235
-  %237 = getelementptr inbounds %struct.Frame, ptr %11, i64 %235
-  %238 = add nuw nsw i64 %235, 1
-  %239 = getelementptr inbounds float, ptr %1, i64 %235
-  %240 = load float, ptr %239, align 4
-  %241 = insertelement <16 x float> poison, float %240, i64 0
-  %242 = getelementptr inbounds float, ptr %2, i64 %235
-  %243 = load float, ptr %242, align 4
-  %244 = insertelement <16 x float> poison, float %243, i64 0
-  %245 = shufflevector <16 x float> %244, <16 x float> poison, <16 x i32> zeroinitializer
-  %246 = fmul contract <16 x float> %215, %245
-  %247 = getelementptr inbounds i8, ptr %236, i64 36
-  %248 = load float, ptr %247, align 4
-  %249 = getelementptr inbounds i8, ptr %236, i64 40
-  %250 = load float, ptr %249, align 4
-  %251 = getelementptr inbounds i8, ptr %236, i64 44
-  %252 = load float, ptr %251, align 4
-  %253 = getelementptr inbounds i8, ptr %237, i64 576
-  %254 = load <16 x float>, ptr %253, align 64
-  %255 = load <16 x float>, ptr %237, align 64
-  %256 = insertelement <16 x float> poison, float %248, i64 0
-  %257 = shufflevector <16 x float> %256, <16 x float> poison, <16 x i32> zeroinitializer
-  %258 = fmul contract <16 x float> %257, %255
-  %259 = getelementptr inbounds i8, ptr %237, i64 64
-  %260 = load <16 x float>, ptr %259, align 64
-  %261 = insertelement <16 x float> poison, float %250, i64 0
-  %262 = shufflevector <16 x float> %261, <16 x float> poison, <16 x i32> zeroinitializer
-  %263 = fmul contract <16 x float> %262, %260
-  %264 = getelementptr inbounds i8, ptr %237, i64 128
-  %265 = load <16 x float>, ptr %264, align 64
-  %266 = insertelement <16 x float> poison, float %252, i64 0
-  %267 = shufflevector <16 x float> %266, <16 x float> poison, <16 x i32> zeroinitializer
-  %268 = fmul contract <16 x float> %267, %265
-  %269 = getelementptr inbounds i8, ptr %237, i64 640
-  %270 = load <16 x float>, ptr %269, align 64
-  %271 = getelementptr inbounds i8, ptr %237, i64 192
-  %272 = load <16 x float>, ptr %271, align 64
-  %273 = fmul contract <16 x float> %257, %272
-  %274 = getelementptr inbounds i8, ptr %237, i64 256
-  %275 = load <16 x float>, ptr %274, align 64
-  %276 = fmul contract <16 x float> %262, %275
-  %277 = getelementptr inbounds i8, ptr %237, i64 320
-  %278 = load <16 x float>, ptr %277, align 64
-  %279 = fmul contract <16 x float> %267, %278
-  %280 = getelementptr inbounds i8, ptr %237, i64 704
-  %281 = load <16 x float>, ptr %280, align 64
-  %282 = getelementptr inbounds i8, ptr %237, i64 384
-  %283 = load <16 x float>, ptr %282, align 64
-  %284 = fmul contract <16 x float> %257, %283
-  %285 = getelementptr inbounds i8, ptr %237, i64 448
-  %286 = load <16 x float>, ptr %285, align 64
-  %287 = fmul contract <16 x float> %262, %286
-  %288 = getelementptr inbounds i8, ptr %237, i64 512
-  %289 = load <16 x float>, ptr %288, align 64
-  %290 = fmul contract <16 x float> %267, %289
+192:
+  %193 = phi i64 [ %196, %388 ], [ 0, %186 ]
+  %194 = getelementptr inbounds %struct.Joint, ptr %121, i64 %193
+  %195 = getelementptr inbounds %struct.Frame, ptr %10, i64 %193
+  %196 = add nuw nsw i64 %193, 1
+  %197 = getelementptr inbounds float, ptr %1, i64 %193
+  %198 = load float, ptr %197, align 4
+  %199 = insertelement <16 x float> poison, float %198, i64 0
+  %200 = getelementptr inbounds float, ptr %2, i64 %193
+  %201 = load float, ptr %200, align 4
+  %202 = insertelement <16 x float> poison, float %201, i64 0
+  %203 = shufflevector <16 x float> %202, <16 x float> poison, <16 x i32> zeroinitializer
+  %204 = fmul contract <16 x float> %173, %203
+  %205 = getelementptr inbounds i8, ptr %194, i64 36
+  %206 = load float, ptr %205, align 4
+  %207 = getelementptr inbounds i8, ptr %194, i64 40
+  %208 = load float, ptr %207, align 4
+  %209 = getelementptr inbounds i8, ptr %194, i64 44
+  %210 = load float, ptr %209, align 4
+  %211 = getelementptr inbounds i8, ptr %195, i64 576
+  %212 = load <16 x float>, ptr %211, align 64
+  %213 = load <16 x float>, ptr %195, align 64
+  %214 = insertelement <16 x float> poison, float %206, i64 0
+  %215 = shufflevector <16 x float> %214, <16 x float> poison, <16 x i32> zeroinitializer
+  %216 = fmul contract <16 x float> %215, %213
+  %217 = getelementptr inbounds i8, ptr %195, i64 64
+  %218 = load <16 x float>, ptr %217, align 64
+  %219 = insertelement <16 x float> poison, float %208, i64 0
+  %220 = shufflevector <16 x float> %219, <16 x float> poison, <16 x i32> zeroinitializer
+  %221 = fmul contract <16 x float> %220, %218
+  %222 = getelementptr inbounds i8, ptr %195, i64 128
+  %223 = load <16 x float>, ptr %222, align 64
+  %224 = insertelement <16 x float> poison, float %210, i64 0
+  %225 = shufflevector <16 x float> %224, <16 x float> poison, <16 x i32> zeroinitializer
+  %226 = fmul contract <16 x float> %225, %223
+  %227 = getelementptr inbounds i8, ptr %195, i64 640
+  %228 = load <16 x float>, ptr %227, align 64
+  %229 = getelementptr inbounds i8, ptr %195, i64 192
+  %230 = load <16 x float>, ptr %229, align 64
+  %231 = fmul contract <16 x float> %215, %230
+  %232 = getelementptr inbounds i8, ptr %195, i64 256
+  %233 = load <16 x float>, ptr %232, align 64
+  %234 = fmul contract <16 x float> %220, %233
+  %235 = getelementptr inbounds i8, ptr %195, i64 320
+  %236 = load <16 x float>, ptr %235, align 64
+  %237 = fmul contract <16 x float> %225, %236
+  %238 = getelementptr inbounds i8, ptr %195, i64 704
+  %239 = load <16 x float>, ptr %238, align 64
+  %240 = getelementptr inbounds i8, ptr %195, i64 384
+  %241 = load <16 x float>, ptr %240, align 64
+  %242 = fmul contract <16 x float> %215, %241
+  %243 = getelementptr inbounds i8, ptr %195, i64 448
+  %244 = load <16 x float>, ptr %243, align 64
+  %245 = fmul contract <16 x float> %220, %244
+  %246 = getelementptr inbounds i8, ptr %195, i64 512
+  %247 = load <16 x float>, ptr %246, align 64
+  %248 = fmul contract <16 x float> %225, %247
   call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %8)
-  br label %291
+  br label %249
 
-291:
-  %292 = phi i64 [ 0, %234 ], [ %322, %321 ]
-  %293 = mul nuw nsw i64 %292, 3
-  %294 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %293
-  %295 = load <16 x float>, ptr %294, align 64
-  %296 = add nuw nsw i64 %293, 1
-  %297 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %296
-  %298 = load <16 x float>, ptr %297, align 64
-  %299 = add nuw nsw i64 %293, 2
-  %300 = getelementptr inbounds [9 x <16 x float>], ptr %237, i64 0, i64 %299
-  %301 = load <16 x float>, ptr %300, align 64
-  br label %324
+249:
+  %250 = phi i64 [ 0, %192 ], [ %280, %279 ]
+  %251 = mul nuw nsw i64 %250, 3
+  %252 = getelementptr inbounds [9 x <16 x float>], ptr %195, i64 0, i64 %251
+  %253 = load <16 x float>, ptr %252, align 64
+  %254 = add nuw nsw i64 %251, 1
+  %255 = getelementptr inbounds [9 x <16 x float>], ptr %195, i64 0, i64 %254
+  %256 = load <16 x float>, ptr %255, align 64
+  %257 = add nuw nsw i64 %251, 2
+  %258 = getelementptr inbounds [9 x <16 x float>], ptr %195, i64 0, i64 %257
+  %259 = load <16 x float>, ptr %258, align 64
+  br label %282
 
-302:
-  %303 = getelementptr inbounds %struct.Frame, ptr %11, i64 %238
-  %304 = shufflevector <16 x float> %241, <16 x float> poison, <16 x i32> zeroinitializer
-  %305 = fadd contract <16 x float> %304, %246
-  %306 = fadd contract <16 x float> %254, %258
-  %307 = fadd contract <16 x float> %306, %263
-  %308 = fadd contract <16 x float> %307, %268
-  %309 = fadd contract <16 x float> %270, %273
-  %310 = fadd contract <16 x float> %309, %276
-  %311 = fadd contract <16 x float> %310, %279
-  %312 = fadd contract <16 x float> %281, %284
-  %313 = fadd contract <16 x float> %312, %287
-  %314 = fadd contract <16 x float> %313, %290
-  %315 = getelementptr inbounds i8, ptr %303, i64 576
-  store <16 x float> %308, ptr %315, align 64
-  %316 = getelementptr inbounds i8, ptr %303, i64 640
-  store <16 x float> %311, ptr %316, align 64
-  %317 = getelementptr inbounds i8, ptr %303, i64 704
-  store <16 x float> %314, ptr %317, align 64
-  %318 = getelementptr inbounds i8, ptr %236, i64 48
-  %319 = load float, ptr %318, align 4
-  %320 = fcmp contract une float %319, 0.000000e+00
-  br i1 %320, label %349, label %368
+260:
+  %261 = getelementptr inbounds %struct.Frame, ptr %10, i64 %196
+  %262 = shufflevector <16 x float> %199, <16 x float> poison, <16 x i32> zeroinitializer
+  %263 = fadd contract <16 x float> %262, %204
+  %264 = fadd contract <16 x float> %212, %216
+  %265 = fadd contract <16 x float> %264, %221
+  %266 = fadd contract <16 x float> %265, %226
+  %267 = fadd contract <16 x float> %228, %231
+  %268 = fadd contract <16 x float> %267, %234
+  %269 = fadd contract <16 x float> %268, %237
+  %270 = fadd contract <16 x float> %239, %242
+  %271 = fadd contract <16 x float> %270, %245
+  %272 = fadd contract <16 x float> %271, %248
+  %273 = getelementptr inbounds i8, ptr %261, i64 576
+  store <16 x float> %266, ptr %273, align 64
+  %274 = getelementptr inbounds i8, ptr %261, i64 640
+  store <16 x float> %269, ptr %274, align 64
+  %275 = getelementptr inbounds i8, ptr %261, i64 704
+  store <16 x float> %272, ptr %275, align 64
+  %276 = getelementptr inbounds i8, ptr %194, i64 48
+  %277 = load float, ptr %276, align 4
+  %278 = fcmp contract une float %277, 0.000000e+00
+  br i1 %278, label %307, label %326
 
-321:
-  %322 = add nuw nsw i64 %292, 1
-  %323 = icmp eq i64 %322, 3
-  br i1 %323, label %302, label %291
+279:
+  %280 = add nuw nsw i64 %250, 1
+  %281 = icmp eq i64 %280, 3
+  br i1 %281, label %260, label %249
 
-324:
-  %325 = phi i64 [ 0, %291 ], [ %347, %324 ]
-  %326 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %325
-  %327 = load float, ptr %326, align 4
-  %328 = insertelement <16 x float> poison, float %327, i64 0
-  %329 = shufflevector <16 x float> %328, <16 x float> poison, <16 x i32> zeroinitializer
-  %330 = fmul contract <16 x float> %295, %329
-  %331 = add nuw nsw i64 %325, 3
-  %332 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %331
-  %333 = load float, ptr %332, align 4
-  %334 = insertelement <16 x float> poison, float %333, i64 0
-  %335 = shufflevector <16 x float> %334, <16 x float> poison, <16 x i32> zeroinitializer
-  %336 = fmul contract <16 x float> %298, %335
-  %337 = fadd contract <16 x float> %330, %336
-  %338 = add nuw nsw i64 %325, 6
-  %339 = getelementptr inbounds [9 x float], ptr %236, i64 0, i64 %338
-  %340 = load float, ptr %339, align 4
-  %341 = insertelement <16 x float> poison, float %340, i64 0
-  %342 = shufflevector <16 x float> %341, <16 x float> poison, <16 x i32> zeroinitializer
-  %343 = fmul contract <16 x float> %301, %342
-  %344 = fadd contract <16 x float> %337, %343
-  %345 = add nuw nsw i64 %325, %293
-  %346 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %345
-  store <16 x float> %344, ptr %346, align 64
-  %347 = add nuw nsw i64 %325, 1
-  %348 = icmp eq i64 %347, 3
-  br i1 %348, label %321, label %324
+282:
+  %283 = phi i64 [ 0, %249 ], [ %305, %282 ]
+  %284 = getelementptr inbounds [9 x float], ptr %194, i64 0, i64 %283
+  %285 = load float, ptr %284, align 4
+  %286 = insertelement <16 x float> poison, float %285, i64 0
+  %287 = shufflevector <16 x float> %286, <16 x float> poison, <16 x i32> zeroinitializer
+  %288 = fmul contract <16 x float> %253, %287
+  %289 = add nuw nsw i64 %283, 3
+  %290 = getelementptr inbounds [9 x float], ptr %194, i64 0, i64 %289
+  %291 = load float, ptr %290, align 4
+  %292 = insertelement <16 x float> poison, float %291, i64 0
+  %293 = shufflevector <16 x float> %292, <16 x float> poison, <16 x i32> zeroinitializer
+  %294 = fmul contract <16 x float> %256, %293
+  %295 = fadd contract <16 x float> %288, %294
+  %296 = add nuw nsw i64 %283, 6
+  %297 = getelementptr inbounds [9 x float], ptr %194, i64 0, i64 %296
+  %298 = load float, ptr %297, align 4
+  %299 = insertelement <16 x float> poison, float %298, i64 0
+  %300 = shufflevector <16 x float> %299, <16 x float> poison, <16 x i32> zeroinitializer
+  %301 = fmul contract <16 x float> %259, %300
+  %302 = fadd contract <16 x float> %295, %301
+  %303 = add nuw nsw i64 %283, %251
+  %304 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %303
+  store <16 x float> %302, ptr %304, align 64
+  %305 = add nuw nsw i64 %283, 1
+  %306 = icmp eq i64 %305, 3
+  br i1 %306, label %279, label %282
 
-349:
-  %350 = phi i64 [ %354, %349 ], [ 0, %302 ]
-  %351 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %350
-  %352 = load <16 x float>, ptr %351, align 64
-  %353 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %350
-  store <16 x float> %352, ptr %353, align 64
-  %354 = add nuw nsw i64 %350, 1
-  %355 = icmp eq i64 %354, 9
-  br i1 %355, label %356, label %349
+307:
+  %308 = phi i64 [ %312, %307 ], [ 0, %260 ]
+  %309 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %308
+  %310 = load <16 x float>, ptr %309, align 64
+  %311 = getelementptr inbounds [9 x <16 x float>], ptr %261, i64 0, i64 %308
+  store <16 x float> %310, ptr %311, align 64
+  %312 = add nuw nsw i64 %308, 1
+  %313 = icmp eq i64 %312, 9
+  br i1 %313, label %314, label %307
 
-356:
-  %357 = phi i64 [ %366, %356 ], [ 0, %349 ]
-  %358 = mul nuw nsw i64 %357, 3
-  %359 = add nuw nsw i64 %358, 2
-  %360 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %359
-  %361 = load <16 x float>, ptr %360, align 64
-  %362 = fmul contract <16 x float> %305, %361
-  %363 = getelementptr inbounds [3 x <16 x float>], ptr %315, i64 0, i64 %357
-  %364 = load <16 x float>, ptr %363, align 64
-  %365 = fadd contract <16 x float> %364, %362
-  store <16 x float> %365, ptr %363, align 64
-  %366 = add nuw nsw i64 %357, 1
-  %367 = icmp eq i64 %366, 3
-  br i1 %367, label %430, label %356
+314:
+  %315 = phi i64 [ %324, %314 ], [ 0, %307 ]
+  %316 = mul nuw nsw i64 %315, 3
+  %317 = add nuw nsw i64 %316, 2
+  %318 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %317
+  %319 = load <16 x float>, ptr %318, align 64
+  %320 = fmul contract <16 x float> %263, %319
+  %321 = getelementptr inbounds [3 x <16 x float>], ptr %273, i64 0, i64 %315
+  %322 = load <16 x float>, ptr %321, align 64
+  %323 = fadd contract <16 x float> %322, %320
+  store <16 x float> %323, ptr %321, align 64
+  %324 = add nuw nsw i64 %315, 1
+  %325 = icmp eq i64 %324, 3
+  br i1 %325, label %388, label %314
 
-368:
-  %369 = fmul contract <16 x float> %305, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
-  %370 = fadd contract <16 x float> %369, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %371 = fadd contract <16 x float> %370, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %372 = fmul contract <16 x float> %371, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
-  %373 = fsub contract <16 x float> %305, %372
-  %374 = fmul contract <16 x float> %371, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
-  %375 = fsub contract <16 x float> %373, %374
-  %376 = fmul contract <16 x float> %371, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
-  %377 = fsub contract <16 x float> %375, %376
-  %378 = fmul contract <16 x float> %371, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %379 = fadd contract <16 x float> %378, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %380 = fadd contract <16 x float> %379, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %381 = fsub contract <16 x float> %378, %380
-  %382 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %381)
-  %383 = fmul contract <16 x float> %382, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
-  %384 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %383
-  %385 = fmul contract <16 x float> %377, %377
-  %386 = fmul contract <16 x float> %377, %385
-  %387 = fmul contract <16 x float> %385, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
-  %388 = fadd contract <16 x float> %387, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
-  %389 = fmul contract <16 x float> %385, %388
-  %390 = fadd contract <16 x float> %389, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
-  %391 = fmul contract <16 x float> %385, %390
-  %392 = fadd contract <16 x float> %391, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
-  %393 = fmul contract <16 x float> %386, %392
-  %394 = fadd contract <16 x float> %377, %393
-  %395 = fmul contract <16 x float> %384, %394
-  %396 = fmul contract <16 x float> %385, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %397 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %396
-  %398 = fmul contract <16 x float> %385, %385
-  %399 = fmul contract <16 x float> %385, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
-  %400 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %399
-  %401 = fmul contract <16 x float> %385, %400
-  %402 = fadd contract <16 x float> %401, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
-  %403 = fmul contract <16 x float> %385, %402
-  %404 = fadd contract <16 x float> %403, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
-  %405 = fmul contract <16 x float> %398, %404
-  %406 = fadd contract <16 x float> %397, %405
-  %407 = fmul contract <16 x float> %384, %406
-  br label %408
+326:
+  %327 = fmul contract <16 x float> %263, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
+  %328 = fadd contract <16 x float> %327, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %329 = fadd contract <16 x float> %328, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %330 = fmul contract <16 x float> %329, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
+  %331 = fsub contract <16 x float> %263, %330
+  %332 = fmul contract <16 x float> %329, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
+  %333 = fsub contract <16 x float> %331, %332
+  %334 = fmul contract <16 x float> %329, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
+  %335 = fsub contract <16 x float> %333, %334
+  %336 = fmul contract <16 x float> %329, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %337 = fadd contract <16 x float> %336, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %338 = fadd contract <16 x float> %337, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %339 = fsub contract <16 x float> %336, %338
+  %340 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %339)
+  %341 = fmul contract <16 x float> %340, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
+  %342 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %341
+  %343 = fmul contract <16 x float> %335, %335
+  %344 = fmul contract <16 x float> %335, %343
+  %345 = fmul contract <16 x float> %343, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
+  %346 = fadd contract <16 x float> %345, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
+  %347 = fmul contract <16 x float> %343, %346
+  %348 = fadd contract <16 x float> %347, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
+  %349 = fmul contract <16 x float> %343, %348
+  %350 = fadd contract <16 x float> %349, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
+  %351 = fmul contract <16 x float> %344, %350
+  %352 = fadd contract <16 x float> %335, %351
+  %353 = fmul contract <16 x float> %342, %352
+  %354 = fmul contract <16 x float> %343, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %355 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %354
+  %356 = fmul contract <16 x float> %343, %343
+  %357 = fmul contract <16 x float> %343, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
+  %358 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %357
+  %359 = fmul contract <16 x float> %343, %358
+  %360 = fadd contract <16 x float> %359, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
+  %361 = fmul contract <16 x float> %343, %360
+  %362 = fadd contract <16 x float> %361, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
+  %363 = fmul contract <16 x float> %356, %362
+  %364 = fadd contract <16 x float> %355, %363
+  %365 = fmul contract <16 x float> %342, %364
+  br label %366
 
-408:
-  %409 = phi i64 [ 0, %368 ], [ %428, %408 ]
-  %410 = mul nuw nsw i64 %409, 3
-  %411 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %410
-  %412 = load <16 x float>, ptr %411, align 64
-  %413 = fmul contract <16 x float> %407, %412
-  %414 = add nuw nsw i64 %410, 1
-  %415 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %414
-  %416 = load <16 x float>, ptr %415, align 64
-  %417 = fmul contract <16 x float> %395, %416
-  %418 = fadd contract <16 x float> %413, %417
-  %419 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %410
-  store <16 x float> %418, ptr %419, align 64
-  %420 = fmul contract <16 x float> %407, %416
-  %421 = fmul contract <16 x float> %395, %412
-  %422 = fsub contract <16 x float> %420, %421
-  %423 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %414
-  store <16 x float> %422, ptr %423, align 64
-  %424 = add nuw nsw i64 %410, 2
-  %425 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %424
-  %426 = load <16 x float>, ptr %425, align 64
-  %427 = getelementptr inbounds [9 x <16 x float>], ptr %303, i64 0, i64 %424
-  store <16 x float> %426, ptr %427, align 64
-  %428 = add nuw nsw i64 %409, 1
-  %429 = icmp eq i64 %428, 3
-  br i1 %429, label %430, label %408
+366:
+  %367 = phi i64 [ 0, %326 ], [ %386, %366 ]
+  %368 = mul nuw nsw i64 %367, 3
+  %369 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %368
+  %370 = load <16 x float>, ptr %369, align 64
+  %371 = fmul contract <16 x float> %365, %370
+  %372 = add nuw nsw i64 %368, 1
+  %373 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %372
+  %374 = load <16 x float>, ptr %373, align 64
+  %375 = fmul contract <16 x float> %353, %374
+  %376 = fadd contract <16 x float> %371, %375
+  %377 = getelementptr inbounds [9 x <16 x float>], ptr %261, i64 0, i64 %368
+  store <16 x float> %376, ptr %377, align 64
+  %378 = fmul contract <16 x float> %365, %374
+  %379 = fmul contract <16 x float> %353, %370
+  %380 = fsub contract <16 x float> %378, %379
+  %381 = getelementptr inbounds [9 x <16 x float>], ptr %261, i64 0, i64 %372
+  store <16 x float> %380, ptr %381, align 64
+  %382 = add nuw nsw i64 %368, 2
+  %383 = getelementptr inbounds [9 x <16 x float>], ptr %8, i64 0, i64 %382
+  %384 = load <16 x float>, ptr %383, align 64
+  %385 = getelementptr inbounds [9 x <16 x float>], ptr %261, i64 0, i64 %382
+  store <16 x float> %384, ptr %385, align 64
+  %386 = add nuw nsw i64 %367, 1
+  %387 = icmp eq i64 %386, 3
+  br i1 %387, label %388, label %366
 
-430:
+388:
   call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %8)
-  %431 = icmp eq i64 %238, %12
-  br i1 %431, label %432, label %234
+  %389 = icmp eq i64 %196, %12
+  br i1 %389, label %390, label %192
 
-432:
-  br i1 %165, label %763, label %433
+390:
+  br i1 %124, label %721, label %391
 
-433:
-  %434 = phi <16 x i32> [ %760, %759 ], [ zeroinitializer, %432 ]
-  %435 = phi i64 [ %761, %759 ], [ 1, %432 ]
-  %436 = getelementptr inbounds %struct.Sphere, ptr %167, i64 %435
-  %437 = getelementptr inbounds i8, ptr %436, i64 12
-  %438 = load float, ptr %437, align 4
-  %439 = fcmp contract olt float %438, 0.000000e+00
-  br i1 %439, label %759, label %440
+391:
+  %392 = phi <16 x i32> [ %718, %717 ], [ zeroinitializer, %390 ]
+  %393 = phi i64 [ %719, %717 ], [ 1, %390 ]
+  %394 = getelementptr inbounds %struct.Sphere, ptr %126, i64 %393
+  %395 = getelementptr inbounds i8, ptr %394, i64 12
+  %396 = load float, ptr %395, align 4
+  %397 = fcmp contract olt float %396, 0.000000e+00
+  br i1 %397, label %717, label %398
 
-440:
-  %441 = getelementptr inbounds %struct.Frame, ptr %11, i64 %435
-  %442 = load float, ptr %436, align 4
-  %443 = getelementptr inbounds i8, ptr %436, i64 4
-  %444 = load float, ptr %443, align 4
-  %445 = getelementptr inbounds i8, ptr %436, i64 8
-  %446 = load float, ptr %445, align 4
-  %447 = getelementptr inbounds i8, ptr %441, i64 576
-  %448 = load <16 x float>, ptr %447, align 64
-  %449 = load <16 x float>, ptr %441, align 64
-  %450 = insertelement <16 x float> poison, float %442, i64 0
-  %451 = shufflevector <16 x float> %450, <16 x float> poison, <16 x i32> zeroinitializer
-  %452 = fmul contract <16 x float> %451, %449
-  %453 = fadd contract <16 x float> %448, %452
-  %454 = getelementptr inbounds i8, ptr %441, i64 64
-  %455 = load <16 x float>, ptr %454, align 64
-  %456 = insertelement <16 x float> poison, float %444, i64 0
-  %457 = shufflevector <16 x float> %456, <16 x float> poison, <16 x i32> zeroinitializer
-  %458 = fmul contract <16 x float> %457, %455
-  %459 = fadd contract <16 x float> %453, %458
-  %460 = getelementptr inbounds i8, ptr %441, i64 128
-  %461 = load <16 x float>, ptr %460, align 64
-  %462 = insertelement <16 x float> poison, float %446, i64 0
-  %463 = shufflevector <16 x float> %462, <16 x float> poison, <16 x i32> zeroinitializer
-  %464 = fmul contract <16 x float> %463, %461
-  %465 = fadd contract <16 x float> %459, %464
-  %466 = getelementptr inbounds i8, ptr %441, i64 640
-  %467 = load <16 x float>, ptr %466, align 64
-  %468 = getelementptr inbounds i8, ptr %441, i64 192
-  %469 = load <16 x float>, ptr %468, align 64
-  %470 = fmul contract <16 x float> %451, %469
-  %471 = fadd contract <16 x float> %467, %470
-  %472 = getelementptr inbounds i8, ptr %441, i64 256
-  %473 = load <16 x float>, ptr %472, align 64
-  %474 = fmul contract <16 x float> %457, %473
-  %475 = fadd contract <16 x float> %471, %474
-  %476 = getelementptr inbounds i8, ptr %441, i64 320
-  %477 = load <16 x float>, ptr %476, align 64
-  %478 = fmul contract <16 x float> %463, %477
-  %479 = fadd contract <16 x float> %475, %478
-  %480 = getelementptr inbounds i8, ptr %441, i64 704
-  %481 = load <16 x float>, ptr %480, align 64
-  %482 = getelementptr inbounds i8, ptr %441, i64 384
-  %483 = load <16 x float>, ptr %482, align 64
-  %484 = fmul contract <16 x float> %451, %483
-  %485 = fadd contract <16 x float> %481, %484
-  %486 = getelementptr inbounds i8, ptr %441, i64 448
-  %487 = load <16 x float>, ptr %486, align 64
-  %488 = fmul contract <16 x float> %457, %487
-  %489 = fadd contract <16 x float> %485, %488
-  %490 = getelementptr inbounds i8, ptr %441, i64 512
-  %491 = load <16 x float>, ptr %490, align 64
-  %492 = fmul contract <16 x float> %463, %491
-  %493 = fadd contract <16 x float> %489, %492
-  %494 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %435
-  %495 = load float, ptr %494, align 4
-  %496 = insertelement <16 x float> poison, float %495, i64 0
-  %497 = shufflevector <16 x float> %496, <16 x float> poison, <16 x i32> zeroinitializer
-  %498 = fmul contract <16 x float> %163, %497
-  %499 = getelementptr inbounds [17 x float], ptr %168, i64 0, i64 %435
+398:
+  %399 = getelementptr inbounds %struct.Frame, ptr %10, i64 %393
+  %400 = load float, ptr %394, align 4
+  %401 = getelementptr inbounds i8, ptr %394, i64 4
+  %402 = load float, ptr %401, align 4
+  %403 = getelementptr inbounds i8, ptr %394, i64 8
+  %404 = load float, ptr %403, align 4
+  %405 = getelementptr inbounds i8, ptr %399, i64 576
+  %406 = load <16 x float>, ptr %405, align 64
+  %407 = load <16 x float>, ptr %399, align 64
+  %408 = insertelement <16 x float> poison, float %400, i64 0
+  %409 = shufflevector <16 x float> %408, <16 x float> poison, <16 x i32> zeroinitializer
+  %410 = fmul contract <16 x float> %409, %407
+  %411 = fadd contract <16 x float> %406, %410
+  %412 = getelementptr inbounds i8, ptr %399, i64 64
+  %413 = load <16 x float>, ptr %412, align 64
+  %414 = insertelement <16 x float> poison, float %402, i64 0
+  %415 = shufflevector <16 x float> %414, <16 x float> poison, <16 x i32> zeroinitializer
+  %416 = fmul contract <16 x float> %415, %413
+  %417 = fadd contract <16 x float> %411, %416
+  %418 = getelementptr inbounds i8, ptr %399, i64 128
+  %419 = load <16 x float>, ptr %418, align 64
+  %420 = insertelement <16 x float> poison, float %404, i64 0
+  %421 = shufflevector <16 x float> %420, <16 x float> poison, <16 x i32> zeroinitializer
+  %422 = fmul contract <16 x float> %421, %419
+  %423 = fadd contract <16 x float> %417, %422
+  %424 = getelementptr inbounds i8, ptr %399, i64 640
+  %425 = load <16 x float>, ptr %424, align 64
+  %426 = getelementptr inbounds i8, ptr %399, i64 192
+  %427 = load <16 x float>, ptr %426, align 64
+  %428 = fmul contract <16 x float> %409, %427
+  %429 = fadd contract <16 x float> %425, %428
+  %430 = getelementptr inbounds i8, ptr %399, i64 256
+  %431 = load <16 x float>, ptr %430, align 64
+  %432 = fmul contract <16 x float> %415, %431
+  %433 = fadd contract <16 x float> %429, %432
+  %434 = getelementptr inbounds i8, ptr %399, i64 320
+  %435 = load <16 x float>, ptr %434, align 64
+  %436 = fmul contract <16 x float> %421, %435
+  %437 = fadd contract <16 x float> %433, %436
+  %438 = getelementptr inbounds i8, ptr %399, i64 704
+  %439 = load <16 x float>, ptr %438, align 64
+  %440 = getelementptr inbounds i8, ptr %399, i64 384
+  %441 = load <16 x float>, ptr %440, align 64
+  %442 = fmul contract <16 x float> %409, %441
+  %443 = fadd contract <16 x float> %439, %442
+  %444 = getelementptr inbounds i8, ptr %399, i64 448
+  %445 = load <16 x float>, ptr %444, align 64
+  %446 = fmul contract <16 x float> %415, %445
+  %447 = fadd contract <16 x float> %443, %446
+  %448 = getelementptr inbounds i8, ptr %399, i64 512
+  %449 = load <16 x float>, ptr %448, align 64
+  %450 = fmul contract <16 x float> %421, %449
+  %451 = fadd contract <16 x float> %447, %450
+  %452 = getelementptr inbounds [17 x float], ptr %9, i64 0, i64 %393
+  %453 = load float, ptr %452, align 4
+  %454 = insertelement <16 x float> poison, float %453, i64 0
+  %455 = shufflevector <16 x float> %454, <16 x float> poison, <16 x i32> zeroinitializer
+  %456 = fmul contract <16 x float> %122, %455
+  %457 = getelementptr inbounds [17 x float], ptr %127, i64 0, i64 %393
+  %458 = load float, ptr %457, align 4
+  %459 = insertelement <16 x float> poison, float %458, i64 0
+  %460 = shufflevector <16 x float> %459, <16 x float> poison, <16 x i32> zeroinitializer
+  %461 = fadd contract <16 x float> %456, %460
+  br i1 %130, label %462, label %717
+
+462:
+  %463 = mul nuw nsw i64 %129, %393
+  %464 = getelementptr float, ptr %134, i64 %463
+  %465 = getelementptr inbounds i64, ptr %136, i64 %393
+  %466 = getelementptr inbounds i8, ptr %465, i64 8
+  br label %467
+
+467:
+  %468 = phi <16 x i32> [ %392, %462 ], [ %714, %713 ]
+  %469 = phi i64 [ 0, %462 ], [ %715, %713 ]
+  %470 = getelementptr inbounds %struct.Object, ptr %132, i64 %469
+  %471 = getelementptr float, ptr %464, i64 %469
+  %472 = load float, ptr %471, align 4
+  %473 = getelementptr inbounds i8, ptr %470, i64 60
+  %474 = load float, ptr %473, align 4
+  %475 = fadd contract float %472, %474
+  %476 = fcmp contract olt float %475, -1.000000e+08
+  br i1 %476, label %713, label %477
+
+477:
+  %478 = fadd contract float %396, %475
+  %479 = insertelement <16 x float> poison, float %478, i64 0
+  %480 = shufflevector <16 x float> %479, <16 x float> poison, <16 x i32> zeroinitializer
+  %481 = fadd contract <16 x float> %461, %480
+  %482 = fcmp contract ogt <16 x float> %481, %123
+  %483 = select contract <16 x i1> %482, <16 x float> %481, <16 x float> %123
+  %484 = getelementptr inbounds i8, ptr %470, i64 36
+  %485 = load float, ptr %484, align 4
+  %486 = insertelement <16 x float> poison, float %485, i64 0
+  %487 = shufflevector <16 x float> %486, <16 x float> poison, <16 x i32> zeroinitializer
+  %488 = load float, ptr %470, align 4
+  %489 = insertelement <16 x float> poison, float %488, i64 0
+  %490 = shufflevector <16 x float> %489, <16 x float> poison, <16 x i32> zeroinitializer
+  %491 = fmul contract <16 x float> %423, %490
+  %492 = fadd contract <16 x float> %487, %491
+  %493 = getelementptr inbounds i8, ptr %470, i64 4
+  %494 = load float, ptr %493, align 4
+  %495 = insertelement <16 x float> poison, float %494, i64 0
+  %496 = shufflevector <16 x float> %495, <16 x float> poison, <16 x i32> zeroinitializer
+  %497 = fmul contract <16 x float> %437, %496
+  %498 = fadd contract <16 x float> %492, %497
+  %499 = getelementptr inbounds i8, ptr %470, i64 8
   %500 = load float, ptr %499, align 4
   %501 = insertelement <16 x float> poison, float %500, i64 0
   %502 = shufflevector <16 x float> %501, <16 x float> poison, <16 x i32> zeroinitializer
-  %503 = fadd contract <16 x float> %498, %502
-  br i1 %171, label %504, label %759
-
-504:
-  %505 = mul nuw nsw i64 %170, %435
-  %506 = getelementptr float, ptr %175, i64 %505
-  %507 = getelementptr inbounds i64, ptr %177, i64 %435
-  %508 = getelementptr inbounds i8, ptr %507, i64 8
-  br label %509
-
-509:
-  %510 = phi <16 x i32> [ %434, %504 ], [ %756, %755 ]
-  %511 = phi i64 [ 0, %504 ], [ %757, %755 ]
-  %512 = getelementptr inbounds %struct.Object, ptr %173, i64 %511
-  %513 = getelementptr float, ptr %506, i64 %511
-  %514 = load float, ptr %513, align 4
-  %515 = getelementptr inbounds i8, ptr %512, i64 60
+  %503 = fmul contract <16 x float> %451, %502
+  %504 = fadd contract <16 x float> %498, %503
+  %505 = getelementptr inbounds i8, ptr %470, i64 40
+  %506 = load float, ptr %505, align 4
+  %507 = insertelement <16 x float> poison, float %506, i64 0
+  %508 = shufflevector <16 x float> %507, <16 x float> poison, <16 x i32> zeroinitializer
+  %509 = getelementptr inbounds i8, ptr %470, i64 12
+  %510 = load float, ptr %509, align 4
+  %511 = insertelement <16 x float> poison, float %510, i64 0
+  %512 = shufflevector <16 x float> %511, <16 x float> poison, <16 x i32> zeroinitializer
+  %513 = fmul contract <16 x float> %423, %512
+  %514 = fadd contract <16 x float> %508, %513
+  %515 = getelementptr inbounds i8, ptr %470, i64 16
   %516 = load float, ptr %515, align 4
-  %517 = fadd contract float %514, %516
-  %518 = fcmp contract olt float %517, -1.000000e+08
-  br i1 %518, label %755, label %519
+  %517 = insertelement <16 x float> poison, float %516, i64 0
+  %518 = shufflevector <16 x float> %517, <16 x float> poison, <16 x i32> zeroinitializer
+  %519 = fmul contract <16 x float> %437, %518
+  %520 = fadd contract <16 x float> %514, %519
+  %521 = getelementptr inbounds i8, ptr %470, i64 20
+  %522 = load float, ptr %521, align 4
+  %523 = insertelement <16 x float> poison, float %522, i64 0
+  %524 = shufflevector <16 x float> %523, <16 x float> poison, <16 x i32> zeroinitializer
+  %525 = fmul contract <16 x float> %451, %524
+  %526 = fadd contract <16 x float> %520, %525
+  %527 = getelementptr inbounds i8, ptr %470, i64 44
+  %528 = load float, ptr %527, align 4
+  %529 = insertelement <16 x float> poison, float %528, i64 0
+  %530 = shufflevector <16 x float> %529, <16 x float> poison, <16 x i32> zeroinitializer
+  %531 = getelementptr inbounds i8, ptr %470, i64 24
+  %532 = load float, ptr %531, align 4
+  %533 = insertelement <16 x float> poison, float %532, i64 0
+  %534 = shufflevector <16 x float> %533, <16 x float> poison, <16 x i32> zeroinitializer
+  %535 = fmul contract <16 x float> %423, %534
+  %536 = fadd contract <16 x float> %530, %535
+  %537 = getelementptr inbounds i8, ptr %470, i64 28
+  %538 = load float, ptr %537, align 4
+  %539 = insertelement <16 x float> poison, float %538, i64 0
+  %540 = shufflevector <16 x float> %539, <16 x float> poison, <16 x i32> zeroinitializer
+  %541 = fmul contract <16 x float> %437, %540
+  %542 = fadd contract <16 x float> %536, %541
+  %543 = getelementptr inbounds i8, ptr %470, i64 32
+  %544 = load float, ptr %543, align 4
+  %545 = insertelement <16 x float> poison, float %544, i64 0
+  %546 = shufflevector <16 x float> %545, <16 x float> poison, <16 x i32> zeroinitializer
+  %547 = fmul contract <16 x float> %451, %546
+  %548 = fadd contract <16 x float> %542, %547
+  %549 = fmul contract <16 x float> %504, zeroinitializer
+  %550 = getelementptr inbounds i8, ptr %470, i64 68
+  %551 = load float, ptr %550, align 4
+  %552 = fcmp contract une float %551, 0.000000e+00
+  %553 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %548)
+  %554 = select contract i1 %552, <16 x float> %548, <16 x float> %553
+  %555 = getelementptr inbounds i8, ptr %470, i64 64
+  %556 = load float, ptr %555, align 4
+  %557 = fcmp contract une float %556, 0.000000e+00
+  br i1 %557, label %558, label %563
 
-519:
-  %520 = fadd contract float %438, %517
-  %521 = insertelement <16 x float> poison, float %520, i64 0
-  %522 = shufflevector <16 x float> %521, <16 x float> poison, <16 x i32> zeroinitializer
-  %523 = fadd contract <16 x float> %503, %522
-  %524 = fcmp contract ogt <16 x float> %523, %164
-  %525 = select contract <16 x i1> %524, <16 x float> %523, <16 x float> %164
-  %526 = getelementptr inbounds i8, ptr %512, i64 36
-  %527 = load float, ptr %526, align 4
-  %528 = insertelement <16 x float> poison, float %527, i64 0
-  %529 = shufflevector <16 x float> %528, <16 x float> poison, <16 x i32> zeroinitializer
-  %530 = load float, ptr %512, align 4
-  %531 = insertelement <16 x float> poison, float %530, i64 0
-  %532 = shufflevector <16 x float> %531, <16 x float> poison, <16 x i32> zeroinitializer
-  %533 = fmul contract <16 x float> %465, %532
-  %534 = fadd contract <16 x float> %529, %533
-  %535 = getelementptr inbounds i8, ptr %512, i64 4
-  %536 = load float, ptr %535, align 4
-  %537 = insertelement <16 x float> poison, float %536, i64 0
-  %538 = shufflevector <16 x float> %537, <16 x float> poison, <16 x i32> zeroinitializer
-  %539 = fmul contract <16 x float> %479, %538
-  %540 = fadd contract <16 x float> %534, %539
-  %541 = getelementptr inbounds i8, ptr %512, i64 8
-  %542 = load float, ptr %541, align 4
-  %543 = insertelement <16 x float> poison, float %542, i64 0
-  %544 = shufflevector <16 x float> %543, <16 x float> poison, <16 x i32> zeroinitializer
-  %545 = fmul contract <16 x float> %493, %544
-  %546 = fadd contract <16 x float> %540, %545
-  %547 = getelementptr inbounds i8, ptr %512, i64 40
-  %548 = load float, ptr %547, align 4
-  %549 = insertelement <16 x float> poison, float %548, i64 0
-  %550 = shufflevector <16 x float> %549, <16 x float> poison, <16 x i32> zeroinitializer
-  %551 = getelementptr inbounds i8, ptr %512, i64 12
-  %552 = load float, ptr %551, align 4
-  %553 = insertelement <16 x float> poison, float %552, i64 0
-  %554 = shufflevector <16 x float> %553, <16 x float> poison, <16 x i32> zeroinitializer
-  %555 = fmul contract <16 x float> %465, %554
-  %556 = fadd contract <16 x float> %550, %555
-  %557 = getelementptr inbounds i8, ptr %512, i64 16
-  %558 = load float, ptr %557, align 4
-  %559 = insertelement <16 x float> poison, float %558, i64 0
-  %560 = shufflevector <16 x float> %559, <16 x float> poison, <16 x i32> zeroinitializer
-  %561 = fmul contract <16 x float> %479, %560
-  %562 = fadd contract <16 x float> %556, %561
-  %563 = getelementptr inbounds i8, ptr %512, i64 20
-  %564 = load float, ptr %563, align 4
-  %565 = insertelement <16 x float> poison, float %564, i64 0
-  %566 = shufflevector <16 x float> %565, <16 x float> poison, <16 x i32> zeroinitializer
-  %567 = fmul contract <16 x float> %493, %566
-  %568 = fadd contract <16 x float> %562, %567
-  %569 = getelementptr inbounds i8, ptr %512, i64 44
-  %570 = load float, ptr %569, align 4
-  %571 = insertelement <16 x float> poison, float %570, i64 0
-  %572 = shufflevector <16 x float> %571, <16 x float> poison, <16 x i32> zeroinitializer
-  %573 = getelementptr inbounds i8, ptr %512, i64 24
-  %574 = load float, ptr %573, align 4
-  %575 = insertelement <16 x float> poison, float %574, i64 0
-  %576 = shufflevector <16 x float> %575, <16 x float> poison, <16 x i32> zeroinitializer
-  %577 = fmul contract <16 x float> %465, %576
-  %578 = fadd contract <16 x float> %572, %577
-  %579 = getelementptr inbounds i8, ptr %512, i64 28
-  %580 = load float, ptr %579, align 4
-  %581 = insertelement <16 x float> poison, float %580, i64 0
-  %582 = shufflevector <16 x float> %581, <16 x float> poison, <16 x i32> zeroinitializer
-  %583 = fmul contract <16 x float> %479, %582
-  %584 = fadd contract <16 x float> %578, %583
-  %585 = getelementptr inbounds i8, ptr %512, i64 32
-  %586 = load float, ptr %585, align 4
-  %587 = insertelement <16 x float> poison, float %586, i64 0
-  %588 = shufflevector <16 x float> %587, <16 x float> poison, <16 x i32> zeroinitializer
-  %589 = fmul contract <16 x float> %493, %588
-  %590 = fadd contract <16 x float> %584, %589
-  %591 = fmul contract <16 x float> %546, zeroinitializer
-  %592 = getelementptr inbounds i8, ptr %512, i64 68
-  %593 = load float, ptr %592, align 4
-  %594 = fcmp contract une float %593, 0.000000e+00
-  %595 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %590)
-  %596 = select contract i1 %594, <16 x float> %590, <16 x float> %595
-  %597 = getelementptr inbounds i8, ptr %512, i64 64
-  %598 = load float, ptr %597, align 4
-  %599 = fcmp contract une float %598, 0.000000e+00
-  br i1 %599, label %600, label %605
+558:
+  %559 = fmul contract <16 x float> %504, %504
+  %560 = fmul contract <16 x float> %526, %526
+  %561 = fadd contract <16 x float> %559, %560
+  %562 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %561)
+  br label %565
 
-600:
-  %601 = fmul contract <16 x float> %546, %546
-  %602 = fmul contract <16 x float> %568, %568
-  %603 = fadd contract <16 x float> %601, %602
-  %604 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %603)
-  br label %607
+563:
+  %564 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %504)
+  br label %565
+
+565:
+  %566 = phi contract <16 x float> [ %562, %558 ], [ %564, %563 ]
+  %567 = getelementptr inbounds i8, ptr %470, i64 48
+  %568 = load float, ptr %567, align 4
+  %569 = insertelement <16 x float> poison, float %568, i64 0
+  %570 = shufflevector <16 x float> %569, <16 x float> poison, <16 x i32> zeroinitializer
+  %571 = fsub contract <16 x float> %566, %570
+  %572 = fcmp contract ogt <16 x float> %571, %549
+  %573 = select contract <16 x i1> %572, <16 x float> %571, <16 x float> %549
+  %574 = getelementptr inbounds i8, ptr %470, i64 56
+  %575 = load float, ptr %574, align 4
+  %576 = insertelement <16 x float> poison, float %575, i64 0
+  %577 = shufflevector <16 x float> %576, <16 x float> poison, <16 x i32> zeroinitializer
+  %578 = fsub contract <16 x float> %554, %577
+  %579 = fcmp contract ogt <16 x float> %578, %549
+  %580 = select contract <16 x i1> %579, <16 x float> %578, <16 x float> %549
+  %581 = fmul contract <16 x float> %573, %573
+  %582 = fmul contract <16 x float> %580, %580
+  %583 = fadd contract <16 x float> %581, %582
+  br i1 %557, label %595, label %584
+
+584:
+  %585 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %526)
+  %586 = getelementptr inbounds i8, ptr %470, i64 52
+  %587 = load float, ptr %586, align 4
+  %588 = insertelement <16 x float> poison, float %587, i64 0
+  %589 = shufflevector <16 x float> %588, <16 x float> poison, <16 x i32> zeroinitializer
+  %590 = fsub contract <16 x float> %585, %589
+  %591 = fcmp contract ogt <16 x float> %590, %549
+  %592 = select contract <16 x i1> %591, <16 x float> %590, <16 x float> %549
+  %593 = fmul contract <16 x float> %592, %592
+  %594 = fadd contract <16 x float> %583, %593
+  br label %595
+
+595:
+  %596 = phi <16 x float> [ %594, %584 ], [ %583, %565 ]
+  %597 = fmul contract <16 x float> %483, %483
+  %598 = fcmp contract olt <16 x float> %596, %597
+  %599 = bitcast <16 x i1> %598 to i16
+  %600 = icmp eq i16 %599, 0
+  br i1 %600, label %713, label %601
+
+601:
+  %602 = load i64, ptr %465, align 8
+  %603 = load i64, ptr %466, align 8
+  %604 = icmp slt i64 %602, %603
+  br i1 %604, label %605, label %708
 
 605:
-  %606 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %546)
-  br label %607
+  %606 = getelementptr inbounds i8, ptr %470, i64 52
+  br label %610
 
 607:
-  %608 = phi contract <16 x float> [ %604, %600 ], [ %606, %605 ]
-  %609 = getelementptr inbounds i8, ptr %512, i64 48
-  %610 = load float, ptr %609, align 4
-  %611 = insertelement <16 x float> poison, float %610, i64 0
-  %612 = shufflevector <16 x float> %611, <16 x float> poison, <16 x i32> zeroinitializer
-  %613 = fsub contract <16 x float> %608, %612
-  %614 = fcmp contract ogt <16 x float> %613, %591
-  %615 = select contract <16 x i1> %614, <16 x float> %613, <16 x float> %591
-  %616 = getelementptr inbounds i8, ptr %512, i64 56
-  %617 = load float, ptr %616, align 4
-  %618 = insertelement <16 x float> poison, float %617, i64 0
-  %619 = shufflevector <16 x float> %618, <16 x float> poison, <16 x i32> zeroinitializer
-  %620 = fsub contract <16 x float> %596, %619
-  %621 = fcmp contract ogt <16 x float> %620, %591
-  %622 = select contract <16 x i1> %621, <16 x float> %620, <16 x float> %591
-  %623 = fmul contract <16 x float> %615, %615
-  %624 = fmul contract <16 x float> %622, %622
-  %625 = fadd contract <16 x float> %623, %624
-  br i1 %599, label %637, label %626
+  %608 = add i64 %612, 1
+  %609 = icmp eq i64 %608, %603
+  br i1 %609, label %708, label %610
 
-626:
-  %627 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %568)
-  %628 = getelementptr inbounds i8, ptr %512, i64 52
-  %629 = load float, ptr %628, align 4
-  %630 = insertelement <16 x float> poison, float %629, i64 0
-  %631 = shufflevector <16 x float> %630, <16 x float> poison, <16 x i32> zeroinitializer
-  %632 = fsub contract <16 x float> %627, %631
-  %633 = fcmp contract ogt <16 x float> %632, %591
-  %634 = select contract <16 x i1> %633, <16 x float> %632, <16 x float> %591
-  %635 = fmul contract <16 x float> %634, %634
-  %636 = fadd contract <16 x float> %625, %635
-  br label %637
+610:
+  %611 = phi <16 x i32> [ %468, %605 ], [ %704, %607 ]
+  %612 = phi i64 [ %602, %605 ], [ %608, %607 ]
+  %613 = getelementptr inbounds %struct.Sphere, ptr %138, i64 %612
+  %614 = getelementptr inbounds i8, ptr %613, i64 12
+  %615 = load float, ptr %614, align 4
+  %616 = fadd contract float %475, %615
+  %617 = insertelement <16 x float> poison, float %616, i64 0
+  %618 = shufflevector <16 x float> %617, <16 x float> poison, <16 x i32> zeroinitializer
+  %619 = fadd contract <16 x float> %461, %618
+  %620 = fcmp contract ogt <16 x float> %619, %123
+  %621 = select contract <16 x i1> %620, <16 x float> %619, <16 x float> %123
+  %622 = load float, ptr %613, align 4
+  %623 = getelementptr inbounds i8, ptr %613, i64 4
+  %624 = load float, ptr %623, align 4
+  %625 = getelementptr inbounds i8, ptr %613, i64 8
+  %626 = load float, ptr %625, align 4
+  %627 = insertelement <16 x float> poison, float %622, i64 0
+  %628 = shufflevector <16 x float> %627, <16 x float> poison, <16 x i32> zeroinitializer
+  %629 = fmul contract <16 x float> %407, %628
+  %630 = fadd contract <16 x float> %406, %629
+  %631 = insertelement <16 x float> poison, float %624, i64 0
+  %632 = shufflevector <16 x float> %631, <16 x float> poison, <16 x i32> zeroinitializer
+  %633 = fmul contract <16 x float> %413, %632
+  %634 = fadd contract <16 x float> %630, %633
+  %635 = insertelement <16 x float> poison, float %626, i64 0
+  %636 = shufflevector <16 x float> %635, <16 x float> poison, <16 x i32> zeroinitializer
+  %637 = fmul contract <16 x float> %419, %636
+  %638 = fadd contract <16 x float> %634, %637
+  %639 = fmul contract <16 x float> %427, %628
+  %640 = fadd contract <16 x float> %425, %639
+  %641 = fmul contract <16 x float> %431, %632
+  %642 = fadd contract <16 x float> %640, %641
+  %643 = fmul contract <16 x float> %435, %636
+  %644 = fadd contract <16 x float> %642, %643
+  %645 = fmul contract <16 x float> %441, %628
+  %646 = fadd contract <16 x float> %439, %645
+  %647 = fmul contract <16 x float> %445, %632
+  %648 = fadd contract <16 x float> %646, %647
+  %649 = fmul contract <16 x float> %449, %636
+  %650 = fadd contract <16 x float> %648, %649
+  %651 = fmul contract <16 x float> %490, %638
+  %652 = fadd contract <16 x float> %487, %651
+  %653 = fmul contract <16 x float> %496, %644
+  %654 = fadd contract <16 x float> %653, %652
+  %655 = fmul contract <16 x float> %502, %650
+  %656 = fadd contract <16 x float> %655, %654
+  %657 = fmul contract <16 x float> %512, %638
+  %658 = fadd contract <16 x float> %508, %657
+  %659 = fmul contract <16 x float> %518, %644
+  %660 = fadd contract <16 x float> %659, %658
+  %661 = fmul contract <16 x float> %524, %650
+  %662 = fadd contract <16 x float> %661, %660
+  %663 = fmul contract <16 x float> %534, %638
+  %664 = fadd contract <16 x float> %530, %663
+  %665 = fmul contract <16 x float> %540, %644
+  %666 = fadd contract <16 x float> %665, %664
+  %667 = fmul contract <16 x float> %546, %650
+  %668 = fadd contract <16 x float> %667, %666
+  %669 = fmul contract <16 x float> %656, zeroinitializer
+  %670 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %668)
+  %671 = select contract i1 %552, <16 x float> %668, <16 x float> %670
+  br i1 %557, label %672, label %677
 
-637:
-  %638 = phi <16 x float> [ %636, %626 ], [ %625, %607 ]
-  %639 = fmul contract <16 x float> %525, %525
-  %640 = fcmp contract olt <16 x float> %638, %639
-  %641 = bitcast <16 x i1> %640 to i16
-  %642 = icmp eq i16 %641, 0
-  br i1 %642, label %755, label %643
+672:
+  %673 = fmul contract <16 x float> %656, %656
+  %674 = fmul contract <16 x float> %662, %662
+  %675 = fadd contract <16 x float> %673, %674
+  %676 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %675)
+  br label %679
 
-643:
-  %644 = load i64, ptr %507, align 8
-  %645 = load i64, ptr %508, align 8
-  %646 = icmp slt i64 %644, %645
-  br i1 %646, label %647, label %750
+677:
+  %678 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %656)
+  br label %679
 
-647:
-  %648 = getelementptr inbounds i8, ptr %512, i64 52
-  br label %652
+679:
+  %680 = phi contract <16 x float> [ %676, %672 ], [ %678, %677 ]
+  %681 = fsub contract <16 x float> %680, %570
+  %682 = fcmp contract ogt <16 x float> %681, %669
+  %683 = select contract <16 x i1> %682, <16 x float> %681, <16 x float> %669
+  %684 = fsub contract <16 x float> %671, %577
+  %685 = fcmp contract ogt <16 x float> %684, %669
+  %686 = select contract <16 x i1> %685, <16 x float> %684, <16 x float> %669
+  %687 = fmul contract <16 x float> %683, %683
+  %688 = fmul contract <16 x float> %686, %686
+  %689 = fadd contract <16 x float> %688, %687
+  br i1 %557, label %700, label %690
 
-649:
-  %650 = add i64 %654, 1
-  %651 = icmp eq i64 %650, %645
-  br i1 %651, label %750, label %652
+690:
+  %691 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %662)
+  %692 = load float, ptr %606, align 4
+  %693 = insertelement <16 x float> poison, float %692, i64 0
+  %694 = shufflevector <16 x float> %693, <16 x float> poison, <16 x i32> zeroinitializer
+  %695 = fsub contract <16 x float> %691, %694
+  %696 = fcmp contract ogt <16 x float> %695, %669
+  %697 = select contract <16 x i1> %696, <16 x float> %695, <16 x float> %669
+  %698 = fmul contract <16 x float> %697, %697
+  %699 = fadd contract <16 x float> %689, %698
+  br label %700
 
-652:
-  %653 = phi <16 x i32> [ %510, %647 ], [ %746, %649 ]
-  %654 = phi i64 [ %644, %647 ], [ %650, %649 ]
-  %655 = getelementptr inbounds %struct.Sphere, ptr %179, i64 %654
-  %656 = getelementptr inbounds i8, ptr %655, i64 12
-  %657 = load float, ptr %656, align 4
-  %658 = fadd contract float %517, %657
-  %659 = insertelement <16 x float> poison, float %658, i64 0
-  %660 = shufflevector <16 x float> %659, <16 x float> poison, <16 x i32> zeroinitializer
-  %661 = fadd contract <16 x float> %503, %660
-  %662 = fcmp contract ogt <16 x float> %661, %164
-  %663 = select contract <16 x i1> %662, <16 x float> %661, <16 x float> %164
-  %664 = load float, ptr %655, align 4
-  %665 = getelementptr inbounds i8, ptr %655, i64 4
-  %666 = load float, ptr %665, align 4
-  %667 = getelementptr inbounds i8, ptr %655, i64 8
-  %668 = load float, ptr %667, align 4
-  %669 = insertelement <16 x float> poison, float %664, i64 0
-  %670 = shufflevector <16 x float> %669, <16 x float> poison, <16 x i32> zeroinitializer
-  %671 = fmul contract <16 x float> %449, %670
-  %672 = fadd contract <16 x float> %448, %671
-  %673 = insertelement <16 x float> poison, float %666, i64 0
-  %674 = shufflevector <16 x float> %673, <16 x float> poison, <16 x i32> zeroinitializer
-  %675 = fmul contract <16 x float> %455, %674
-  %676 = fadd contract <16 x float> %672, %675
-  %677 = insertelement <16 x float> poison, float %668, i64 0
-  %678 = shufflevector <16 x float> %677, <16 x float> poison, <16 x i32> zeroinitializer
-  %679 = fmul contract <16 x float> %461, %678
-  %680 = fadd contract <16 x float> %676, %679
-  %681 = fmul contract <16 x float> %469, %670
-  %682 = fadd contract <16 x float> %467, %681
-  %683 = fmul contract <16 x float> %473, %674
-  %684 = fadd contract <16 x float> %682, %683
-  %685 = fmul contract <16 x float> %477, %678
-  %686 = fadd contract <16 x float> %684, %685
-  %687 = fmul contract <16 x float> %483, %670
-  %688 = fadd contract <16 x float> %481, %687
-  %689 = fmul contract <16 x float> %487, %674
-  %690 = fadd contract <16 x float> %688, %689
-  %691 = fmul contract <16 x float> %491, %678
-  %692 = fadd contract <16 x float> %690, %691
-  %693 = fmul contract <16 x float> %532, %680
-  %694 = fadd contract <16 x float> %529, %693
-  %695 = fmul contract <16 x float> %538, %686
-  %696 = fadd contract <16 x float> %695, %694
-  %697 = fmul contract <16 x float> %544, %692
-  %698 = fadd contract <16 x float> %697, %696
-  %699 = fmul contract <16 x float> %554, %680
-  %700 = fadd contract <16 x float> %550, %699
-  %701 = fmul contract <16 x float> %560, %686
-  %702 = fadd contract <16 x float> %701, %700
-  %703 = fmul contract <16 x float> %566, %692
-  %704 = fadd contract <16 x float> %703, %702
-  %705 = fmul contract <16 x float> %576, %680
-  %706 = fadd contract <16 x float> %572, %705
-  %707 = fmul contract <16 x float> %582, %686
-  %708 = fadd contract <16 x float> %707, %706
-  %709 = fmul contract <16 x float> %588, %692
-  %710 = fadd contract <16 x float> %709, %708
-  %711 = fmul contract <16 x float> %698, zeroinitializer
-  %712 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %710)
-  %713 = select contract i1 %594, <16 x float> %710, <16 x float> %712
-  br i1 %599, label %714, label %719
+700:
+  %701 = phi <16 x float> [ %699, %690 ], [ %689, %679 ]
+  %702 = fmul contract <16 x float> %621, %621
+  %703 = fcmp contract olt <16 x float> %701, %702
+  %704 = select <16 x i1> %703, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %611
+  %705 = icmp ne <16 x i32> %704, zeroinitializer
+  %706 = bitcast <16 x i1> %705 to i16
+  %707 = icmp eq i16 %706, 0
+  br i1 %707, label %607, label %1229
 
-714:
-  %715 = fmul contract <16 x float> %698, %698
-  %716 = fmul contract <16 x float> %704, %704
-  %717 = fadd contract <16 x float> %715, %716
-  %718 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %717)
-  br label %721
+708:
+  %709 = phi <16 x i32> [ %468, %601 ], [ %704, %607 ]
+  %710 = icmp eq <16 x i32> %709, zeroinitializer
+  %711 = bitcast <16 x i1> %710 to i16
+  %712 = icmp eq i16 %711, 0
+  br i1 %712, label %1229, label %713
 
-719:
-  %720 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %698)
-  br label %721
+713:
+  %714 = phi <16 x i32> [ %709, %708 ], [ %468, %595 ], [ %468, %467 ]
+  %715 = add nuw nsw i64 %469, 1
+  %716 = icmp eq i64 %715, %129
+  br i1 %716, label %717, label %467
+
+717:
+  %718 = phi <16 x i32> [ %392, %391 ], [ %392, %398 ], [ %714, %713 ]
+  %719 = add nuw i64 %393, 1
+  %720 = icmp eq i64 %393, %12
+  br i1 %720, label %721, label %391
 
 721:
-  %722 = phi contract <16 x float> [ %718, %714 ], [ %720, %719 ]
-  %723 = fsub contract <16 x float> %722, %612
-  %724 = fcmp contract ogt <16 x float> %723, %711
-  %725 = select contract <16 x i1> %724, <16 x float> %723, <16 x float> %711
-  %726 = fsub contract <16 x float> %713, %619
-  %727 = fcmp contract ogt <16 x float> %726, %711
-  %728 = select contract <16 x i1> %727, <16 x float> %726, <16 x float> %711
-  %729 = fmul contract <16 x float> %725, %725
-  %730 = fmul contract <16 x float> %728, %728
-  %731 = fadd contract <16 x float> %730, %729
-  br i1 %599, label %742, label %732
-
-732:
-  %733 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %704)
-  %734 = load float, ptr %648, align 4
-  %735 = insertelement <16 x float> poison, float %734, i64 0
-  %736 = shufflevector <16 x float> %735, <16 x float> poison, <16 x i32> zeroinitializer
-  %737 = fsub contract <16 x float> %733, %736
-  %738 = fcmp contract ogt <16 x float> %737, %711
-  %739 = select contract <16 x i1> %738, <16 x float> %737, <16 x float> %711
-  %740 = fmul contract <16 x float> %739, %739
-  %741 = fadd contract <16 x float> %731, %740
-  br label %742
-
-742:
-  %743 = phi <16 x float> [ %741, %732 ], [ %731, %721 ]
-  %744 = fmul contract <16 x float> %663, %663
-  %745 = fcmp contract olt <16 x float> %743, %744
-  %746 = select <16 x i1> %745, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %653
-  %747 = icmp ne <16 x i32> %746, zeroinitializer
-  %748 = bitcast <16 x i1> %747 to i16
-  %749 = icmp eq i16 %748, 0
-  br i1 %749, label %649, label %1271
-
-750:
-  %751 = phi <16 x i32> [ %510, %643 ], [ %746, %649 ]
-  %752 = icmp eq <16 x i32> %751, zeroinitializer
-  %753 = bitcast <16 x i1> %752 to i16
-  %754 = icmp eq i16 %753, 0
-  br i1 %754, label %1271, label %755
-
-755:
-  %756 = phi <16 x i32> [ %751, %750 ], [ %510, %637 ], [ %510, %509 ]
-  %757 = add nuw nsw i64 %511, 1
-  %758 = icmp eq i64 %757, %170
-  br i1 %758, label %759, label %509
-
-759:
-  %760 = phi <16 x i32> [ %434, %433 ], [ %434, %440 ], [ %756, %755 ]
-  %761 = add nuw i64 %435, 1
-  %762 = icmp eq i64 %435, %12
-  br i1 %762, label %763, label %433
-
-763:
-  %764 = phi <16 x i32> [ zeroinitializer, %432 ], [ zeroinitializer, %228 ], [ %760, %759 ]
+  %722 = phi <16 x i32> [ zeroinitializer, %390 ], [ zeroinitializer, %186 ], [ %718, %717 ]
   call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %6)
-  br i1 %22, label %765, label %1269
+  br i1 %21, label %723, label %1227
 
-765:
-  %766 = phi <16 x i32> [ %1264, %1263 ], [ %764, %763 ]
-  %767 = phi i64 [ %1265, %1263 ], [ 0, %763 ]
-  %768 = phi i64 [ %1266, %1263 ], [ 0, %763 ]
-  %769 = getelementptr inbounds %struct.LinkPair, ptr %181, i64 %768
-  %770 = load i64, ptr %769, align 8
-  %771 = getelementptr inbounds %struct.Sphere, ptr %183, i64 %770
-  %772 = getelementptr inbounds i8, ptr %769, i64 8
-  %773 = load i64, ptr %772, align 8
-  %774 = getelementptr inbounds %struct.Sphere, ptr %183, i64 %773
-  %775 = getelementptr inbounds %struct.Frame, ptr %11, i64 %770
-  %776 = getelementptr inbounds %struct.Frame, ptr %11, i64 %773
-  %777 = getelementptr inbounds [136 x float], ptr %184, i64 0, i64 %768
-  %778 = load float, ptr %777, align 4
-  %779 = insertelement <16 x float> poison, float %778, i64 0
-  %780 = shufflevector <16 x float> %779, <16 x float> poison, <16 x i32> zeroinitializer
-  %781 = fmul contract <16 x float> %163, %780
-  %782 = getelementptr inbounds [136 x float], ptr %185, i64 0, i64 %768
-  %783 = load float, ptr %782, align 4
-  %784 = getelementptr inbounds float, ptr %187, i64 %768
-  %785 = load float, ptr %784, align 4
-  %786 = fadd contract float %783, %785
-  %787 = insertelement <16 x float> poison, float %786, i64 0
-  %788 = shufflevector <16 x float> %787, <16 x float> poison, <16 x i32> zeroinitializer
-  %789 = fadd contract <16 x float> %781, %788
-  %790 = load float, ptr %774, align 4
-  %791 = getelementptr inbounds i8, ptr %774, i64 4
-  %792 = load float, ptr %791, align 4
-  %793 = getelementptr inbounds i8, ptr %774, i64 8
-  %794 = load float, ptr %793, align 4
-  %795 = getelementptr inbounds i8, ptr %776, i64 576
-  %796 = load <16 x float>, ptr %795, align 64
-  %797 = load <16 x float>, ptr %776, align 64
-  %798 = insertelement <16 x float> poison, float %790, i64 0
-  %799 = shufflevector <16 x float> %798, <16 x float> poison, <16 x i32> zeroinitializer
-  %800 = fmul contract <16 x float> %799, %797
-  %801 = fadd contract <16 x float> %796, %800
-  %802 = getelementptr inbounds i8, ptr %776, i64 64
-  %803 = load <16 x float>, ptr %802, align 64
-  %804 = insertelement <16 x float> poison, float %792, i64 0
-  %805 = shufflevector <16 x float> %804, <16 x float> poison, <16 x i32> zeroinitializer
-  %806 = fmul contract <16 x float> %805, %803
-  %807 = fadd contract <16 x float> %801, %806
-  %808 = getelementptr inbounds i8, ptr %776, i64 128
-  %809 = load <16 x float>, ptr %808, align 64
-  %810 = insertelement <16 x float> poison, float %794, i64 0
-  %811 = shufflevector <16 x float> %810, <16 x float> poison, <16 x i32> zeroinitializer
-  %812 = fmul contract <16 x float> %811, %809
-  %813 = fadd contract <16 x float> %807, %812
-  %814 = getelementptr inbounds i8, ptr %776, i64 640
-  %815 = load <16 x float>, ptr %814, align 64
-  %816 = getelementptr inbounds i8, ptr %776, i64 192
-  %817 = load <16 x float>, ptr %816, align 64
-  %818 = fmul contract <16 x float> %799, %817
-  %819 = fadd contract <16 x float> %815, %818
-  %820 = getelementptr inbounds i8, ptr %776, i64 256
-  %821 = load <16 x float>, ptr %820, align 64
-  %822 = fmul contract <16 x float> %805, %821
-  %823 = fadd contract <16 x float> %819, %822
-  %824 = getelementptr inbounds i8, ptr %776, i64 320
-  %825 = load <16 x float>, ptr %824, align 64
-  %826 = fmul contract <16 x float> %811, %825
-  %827 = fadd contract <16 x float> %823, %826
-  %828 = getelementptr inbounds i8, ptr %776, i64 704
+723:
+  %724 = phi <16 x i32> [ %1222, %1221 ], [ %722, %721 ]
+  %725 = phi i64 [ %1223, %1221 ], [ 0, %721 ]
+  %726 = phi i64 [ %1224, %1221 ], [ 0, %721 ]
+  %727 = getelementptr inbounds %struct.LinkPair, ptr %140, i64 %726
+  %728 = load i64, ptr %727, align 8
+  %729 = getelementptr inbounds %struct.Sphere, ptr %142, i64 %728
+  %730 = getelementptr inbounds i8, ptr %727, i64 8
+  %731 = load i64, ptr %730, align 8
+  %732 = getelementptr inbounds %struct.Sphere, ptr %142, i64 %731
+  %733 = getelementptr inbounds %struct.Frame, ptr %10, i64 %728
+  %734 = getelementptr inbounds %struct.Frame, ptr %10, i64 %731
+  %735 = getelementptr inbounds [136 x float], ptr %11, i64 0, i64 %726
+  %736 = load float, ptr %735, align 4
+  %737 = insertelement <16 x float> poison, float %736, i64 0
+  %738 = shufflevector <16 x float> %737, <16 x float> poison, <16 x i32> zeroinitializer
+  %739 = fmul contract <16 x float> %122, %738
+  %740 = getelementptr inbounds [136 x float], ptr %143, i64 0, i64 %726
+  %741 = load float, ptr %740, align 4
+  %742 = getelementptr inbounds float, ptr %145, i64 %726
+  %743 = load float, ptr %742, align 4
+  %744 = fadd contract float %741, %743
+  %745 = insertelement <16 x float> poison, float %744, i64 0
+  %746 = shufflevector <16 x float> %745, <16 x float> poison, <16 x i32> zeroinitializer
+  %747 = fadd contract <16 x float> %739, %746
+  %748 = load float, ptr %732, align 4
+  %749 = getelementptr inbounds i8, ptr %732, i64 4
+  %750 = load float, ptr %749, align 4
+  %751 = getelementptr inbounds i8, ptr %732, i64 8
+  %752 = load float, ptr %751, align 4
+  %753 = getelementptr inbounds i8, ptr %734, i64 576
+  %754 = load <16 x float>, ptr %753, align 64
+  %755 = load <16 x float>, ptr %734, align 64
+  %756 = insertelement <16 x float> poison, float %748, i64 0
+  %757 = shufflevector <16 x float> %756, <16 x float> poison, <16 x i32> zeroinitializer
+  %758 = fmul contract <16 x float> %757, %755
+  %759 = fadd contract <16 x float> %754, %758
+  %760 = getelementptr inbounds i8, ptr %734, i64 64
+  %761 = load <16 x float>, ptr %760, align 64
+  %762 = insertelement <16 x float> poison, float %750, i64 0
+  %763 = shufflevector <16 x float> %762, <16 x float> poison, <16 x i32> zeroinitializer
+  %764 = fmul contract <16 x float> %763, %761
+  %765 = fadd contract <16 x float> %759, %764
+  %766 = getelementptr inbounds i8, ptr %734, i64 128
+  %767 = load <16 x float>, ptr %766, align 64
+  %768 = insertelement <16 x float> poison, float %752, i64 0
+  %769 = shufflevector <16 x float> %768, <16 x float> poison, <16 x i32> zeroinitializer
+  %770 = fmul contract <16 x float> %769, %767
+  %771 = fadd contract <16 x float> %765, %770
+  %772 = getelementptr inbounds i8, ptr %734, i64 640
+  %773 = load <16 x float>, ptr %772, align 64
+  %774 = getelementptr inbounds i8, ptr %734, i64 192
+  %775 = load <16 x float>, ptr %774, align 64
+  %776 = fmul contract <16 x float> %757, %775
+  %777 = fadd contract <16 x float> %773, %776
+  %778 = getelementptr inbounds i8, ptr %734, i64 256
+  %779 = load <16 x float>, ptr %778, align 64
+  %780 = fmul contract <16 x float> %763, %779
+  %781 = fadd contract <16 x float> %777, %780
+  %782 = getelementptr inbounds i8, ptr %734, i64 320
+  %783 = load <16 x float>, ptr %782, align 64
+  %784 = fmul contract <16 x float> %769, %783
+  %785 = fadd contract <16 x float> %781, %784
+  %786 = getelementptr inbounds i8, ptr %734, i64 704
+  %787 = load <16 x float>, ptr %786, align 64
+  %788 = getelementptr inbounds i8, ptr %734, i64 384
+  %789 = load <16 x float>, ptr %788, align 64
+  %790 = fmul contract <16 x float> %757, %789
+  %791 = fadd contract <16 x float> %787, %790
+  %792 = getelementptr inbounds i8, ptr %734, i64 448
+  %793 = load <16 x float>, ptr %792, align 64
+  %794 = fmul contract <16 x float> %763, %793
+  %795 = fadd contract <16 x float> %791, %794
+  %796 = getelementptr inbounds i8, ptr %734, i64 512
+  %797 = load <16 x float>, ptr %796, align 64
+  %798 = fmul contract <16 x float> %769, %797
+  %799 = fadd contract <16 x float> %795, %798
+  %800 = getelementptr inbounds i8, ptr %729, i64 12
+  %801 = load float, ptr %800, align 4
+  %802 = getelementptr inbounds i8, ptr %732, i64 12
+  %803 = load float, ptr %802, align 4
+  %804 = fadd contract float %801, %803
+  %805 = insertelement <16 x float> poison, float %804, i64 0
+  %806 = shufflevector <16 x float> %805, <16 x float> poison, <16 x i32> zeroinitializer
+  %807 = fadd contract <16 x float> %747, %806
+  %808 = fcmp contract ogt <16 x float> %807, %123
+  %809 = select contract <16 x i1> %808, <16 x float> %807, <16 x float> %123
+  %810 = load float, ptr %729, align 4
+  %811 = getelementptr inbounds i8, ptr %729, i64 4
+  %812 = load float, ptr %811, align 4
+  %813 = getelementptr inbounds i8, ptr %729, i64 8
+  %814 = load float, ptr %813, align 4
+  %815 = getelementptr inbounds i8, ptr %733, i64 576
+  %816 = load <16 x float>, ptr %815, align 64
+  %817 = load <16 x float>, ptr %733, align 64
+  %818 = insertelement <16 x float> poison, float %810, i64 0
+  %819 = shufflevector <16 x float> %818, <16 x float> poison, <16 x i32> zeroinitializer
+  %820 = fmul contract <16 x float> %819, %817
+  %821 = fadd contract <16 x float> %816, %820
+  %822 = getelementptr inbounds i8, ptr %733, i64 64
+  %823 = load <16 x float>, ptr %822, align 64
+  %824 = insertelement <16 x float> poison, float %812, i64 0
+  %825 = shufflevector <16 x float> %824, <16 x float> poison, <16 x i32> zeroinitializer
+  %826 = fmul contract <16 x float> %825, %823
+  %827 = fadd contract <16 x float> %821, %826
+  %828 = getelementptr inbounds i8, ptr %733, i64 128
   %829 = load <16 x float>, ptr %828, align 64
-  %830 = getelementptr inbounds i8, ptr %776, i64 384
-  %831 = load <16 x float>, ptr %830, align 64
-  %832 = fmul contract <16 x float> %799, %831
-  %833 = fadd contract <16 x float> %829, %832
-  %834 = getelementptr inbounds i8, ptr %776, i64 448
+  %830 = insertelement <16 x float> poison, float %814, i64 0
+  %831 = shufflevector <16 x float> %830, <16 x float> poison, <16 x i32> zeroinitializer
+  %832 = fmul contract <16 x float> %831, %829
+  %833 = fadd contract <16 x float> %827, %832
+  %834 = getelementptr inbounds i8, ptr %733, i64 640
   %835 = load <16 x float>, ptr %834, align 64
-  %836 = fmul contract <16 x float> %805, %835
-  %837 = fadd contract <16 x float> %833, %836
-  %838 = getelementptr inbounds i8, ptr %776, i64 512
-  %839 = load <16 x float>, ptr %838, align 64
-  %840 = fmul contract <16 x float> %811, %839
-  %841 = fadd contract <16 x float> %837, %840
-  %842 = getelementptr inbounds i8, ptr %771, i64 12
-  %843 = load float, ptr %842, align 4
-  %844 = getelementptr inbounds i8, ptr %774, i64 12
-  %845 = load float, ptr %844, align 4
-  %846 = fadd contract float %843, %845
-  %847 = insertelement <16 x float> poison, float %846, i64 0
-  %848 = shufflevector <16 x float> %847, <16 x float> poison, <16 x i32> zeroinitializer
-  %849 = fadd contract <16 x float> %789, %848
-  %850 = fcmp contract ogt <16 x float> %849, %164
-  %851 = select contract <16 x i1> %850, <16 x float> %849, <16 x float> %164
-  %852 = load float, ptr %771, align 4
-  %853 = getelementptr inbounds i8, ptr %771, i64 4
-  %854 = load float, ptr %853, align 4
-  %855 = getelementptr inbounds i8, ptr %771, i64 8
-  %856 = load float, ptr %855, align 4
-  %857 = getelementptr inbounds i8, ptr %775, i64 576
-  %858 = load <16 x float>, ptr %857, align 64
-  %859 = load <16 x float>, ptr %775, align 64
-  %860 = insertelement <16 x float> poison, float %852, i64 0
-  %861 = shufflevector <16 x float> %860, <16 x float> poison, <16 x i32> zeroinitializer
-  %862 = fmul contract <16 x float> %861, %859
-  %863 = fadd contract <16 x float> %858, %862
-  %864 = getelementptr inbounds i8, ptr %775, i64 64
-  %865 = load <16 x float>, ptr %864, align 64
-  %866 = insertelement <16 x float> poison, float %854, i64 0
-  %867 = shufflevector <16 x float> %866, <16 x float> poison, <16 x i32> zeroinitializer
-  %868 = fmul contract <16 x float> %867, %865
-  %869 = fadd contract <16 x float> %863, %868
-  %870 = getelementptr inbounds i8, ptr %775, i64 128
-  %871 = load <16 x float>, ptr %870, align 64
-  %872 = insertelement <16 x float> poison, float %856, i64 0
-  %873 = shufflevector <16 x float> %872, <16 x float> poison, <16 x i32> zeroinitializer
-  %874 = fmul contract <16 x float> %873, %871
-  %875 = fadd contract <16 x float> %869, %874
-  %876 = getelementptr inbounds i8, ptr %775, i64 640
-  %877 = load <16 x float>, ptr %876, align 64
-  %878 = getelementptr inbounds i8, ptr %775, i64 192
-  %879 = load <16 x float>, ptr %878, align 64
-  %880 = fmul contract <16 x float> %861, %879
-  %881 = fadd contract <16 x float> %877, %880
-  %882 = getelementptr inbounds i8, ptr %775, i64 256
-  %883 = load <16 x float>, ptr %882, align 64
-  %884 = fmul contract <16 x float> %867, %883
-  %885 = fadd contract <16 x float> %881, %884
-  %886 = getelementptr inbounds i8, ptr %775, i64 320
-  %887 = load <16 x float>, ptr %886, align 64
-  %888 = fmul contract <16 x float> %873, %887
-  %889 = fadd contract <16 x float> %885, %888
-  %890 = getelementptr inbounds i8, ptr %775, i64 704
-  %891 = load <16 x float>, ptr %890, align 64
-  %892 = getelementptr inbounds i8, ptr %775, i64 384
-  %893 = load <16 x float>, ptr %892, align 64
-  %894 = fmul contract <16 x float> %861, %893
-  %895 = fadd contract <16 x float> %891, %894
-  %896 = getelementptr inbounds i8, ptr %775, i64 448
-  %897 = load <16 x float>, ptr %896, align 64
-  %898 = fmul contract <16 x float> %867, %897
-  %899 = fadd contract <16 x float> %895, %898
-  %900 = getelementptr inbounds i8, ptr %775, i64 512
-  %901 = load <16 x float>, ptr %900, align 64
-  %902 = fmul contract <16 x float> %873, %901
-  %903 = fadd contract <16 x float> %899, %902
-  %904 = fsub contract <16 x float> %875, %813
-  %905 = fsub contract <16 x float> %889, %827
-  %906 = fsub contract <16 x float> %903, %841
-  %907 = fmul contract <16 x float> %904, %904
-  %908 = fmul contract <16 x float> %905, %905
-  %909 = fadd contract <16 x float> %907, %908
-  %910 = fmul contract <16 x float> %906, %906
-  %911 = fadd contract <16 x float> %909, %910
-  %912 = fmul contract <16 x float> %851, %851
-  %913 = fcmp contract olt <16 x float> %911, %912
-  %914 = bitcast <16 x i1> %913 to i16
-  %915 = icmp eq i16 %914, 0
-  br i1 %915, label %1263, label %916
+  %836 = getelementptr inbounds i8, ptr %733, i64 192
+  %837 = load <16 x float>, ptr %836, align 64
+  %838 = fmul contract <16 x float> %819, %837
+  %839 = fadd contract <16 x float> %835, %838
+  %840 = getelementptr inbounds i8, ptr %733, i64 256
+  %841 = load <16 x float>, ptr %840, align 64
+  %842 = fmul contract <16 x float> %825, %841
+  %843 = fadd contract <16 x float> %839, %842
+  %844 = getelementptr inbounds i8, ptr %733, i64 320
+  %845 = load <16 x float>, ptr %844, align 64
+  %846 = fmul contract <16 x float> %831, %845
+  %847 = fadd contract <16 x float> %843, %846
+  %848 = getelementptr inbounds i8, ptr %733, i64 704
+  %849 = load <16 x float>, ptr %848, align 64
+  %850 = getelementptr inbounds i8, ptr %733, i64 384
+  %851 = load <16 x float>, ptr %850, align 64
+  %852 = fmul contract <16 x float> %819, %851
+  %853 = fadd contract <16 x float> %849, %852
+  %854 = getelementptr inbounds i8, ptr %733, i64 448
+  %855 = load <16 x float>, ptr %854, align 64
+  %856 = fmul contract <16 x float> %825, %855
+  %857 = fadd contract <16 x float> %853, %856
+  %858 = getelementptr inbounds i8, ptr %733, i64 512
+  %859 = load <16 x float>, ptr %858, align 64
+  %860 = fmul contract <16 x float> %831, %859
+  %861 = fadd contract <16 x float> %857, %860
+  %862 = fsub contract <16 x float> %833, %771
+  %863 = fsub contract <16 x float> %847, %785
+  %864 = fsub contract <16 x float> %861, %799
+  %865 = fmul contract <16 x float> %862, %862
+  %866 = fmul contract <16 x float> %863, %863
+  %867 = fadd contract <16 x float> %865, %866
+  %868 = fmul contract <16 x float> %864, %864
+  %869 = fadd contract <16 x float> %867, %868
+  %870 = fmul contract <16 x float> %809, %809
+  %871 = fcmp contract olt <16 x float> %869, %870
+  %872 = bitcast <16 x i1> %871 to i16
+  %873 = icmp eq i16 %872, 0
+  br i1 %873, label %1221, label %874
 
-916:
+874:
   call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %7)
-  store i64 %770, ptr %7, align 16
-  store i64 %773, ptr %188, align 8
-  br label %923
+  store i64 %728, ptr %7, align 16
+  store i64 %731, ptr %146, align 8
+  br label %881
 
-917:
-  %918 = getelementptr inbounds i8, ptr %769, i64 16
-  %919 = load i64, ptr %918, align 8
-  %920 = getelementptr inbounds i8, ptr %769, i64 24
-  %921 = load i64, ptr %920, align 8
-  %922 = icmp slt i64 %919, %921
-  br i1 %922, label %1004, label %1261
+875:
+  %876 = getelementptr inbounds i8, ptr %727, i64 16
+  %877 = load i64, ptr %876, align 8
+  %878 = getelementptr inbounds i8, ptr %727, i64 24
+  %879 = load i64, ptr %878, align 8
+  %880 = icmp slt i64 %877, %879
+  br i1 %880, label %962, label %1219
 
-923:
-  %924 = phi i64 [ %767, %916 ], [ %1001, %1000 ]
-  %925 = phi i64 [ 0, %916 ], [ %1002, %1000 ]
-  %926 = getelementptr inbounds i8, ptr %7, i64 %925
-  %927 = load i64, ptr %926, align 8
-  %928 = shl nuw i64 1, %927
-  %929 = and i64 %928, %924
-  %930 = icmp eq i64 %929, 0
-  br i1 %930, label %931, label %1000
+881:
+  %882 = phi i64 [ %725, %874 ], [ %959, %958 ]
+  %883 = phi i64 [ 0, %874 ], [ %960, %958 ]
+  %884 = getelementptr inbounds i8, ptr %7, i64 %883
+  %885 = load i64, ptr %884, align 8
+  %886 = shl nuw i64 1, %885
+  %887 = and i64 %886, %882
+  %888 = icmp eq i64 %887, 0
+  br i1 %888, label %889, label %958
 
-931:
-  %932 = or i64 %928, %924
-  %933 = getelementptr inbounds i64, ptr %190, i64 %927
-  %934 = load i64, ptr %933, align 8
-  %935 = getelementptr i8, ptr %933, i64 8
-  %936 = load i64, ptr %935, align 8
-  %937 = icmp slt i64 %934, %936
-  br i1 %937, label %938, label %1000
+889:
+  %890 = or i64 %886, %882
+  %891 = getelementptr inbounds i64, ptr %148, i64 %885
+  %892 = load i64, ptr %891, align 8
+  %893 = getelementptr i8, ptr %891, i64 8
+  %894 = load i64, ptr %893, align 8
+  %895 = icmp slt i64 %892, %894
+  br i1 %895, label %896, label %958
 
-938:
-  %939 = getelementptr inbounds %struct.Frame, ptr %11, i64 %927
-  %940 = getelementptr inbounds i8, ptr %939, i64 576
-  %941 = load <16 x float>, ptr %940, align 64
-  %942 = load <16 x float>, ptr %939, align 64
-  %943 = getelementptr inbounds i8, ptr %939, i64 64
-  %944 = load <16 x float>, ptr %943, align 64
-  %945 = getelementptr inbounds i8, ptr %939, i64 128
-  %946 = load <16 x float>, ptr %945, align 64
-  %947 = getelementptr inbounds i8, ptr %939, i64 640
-  %948 = load <16 x float>, ptr %947, align 64
-  %949 = getelementptr inbounds i8, ptr %939, i64 192
-  %950 = load <16 x float>, ptr %949, align 64
-  %951 = getelementptr inbounds i8, ptr %939, i64 256
-  %952 = load <16 x float>, ptr %951, align 64
-  %953 = getelementptr inbounds i8, ptr %939, i64 320
-  %954 = load <16 x float>, ptr %953, align 64
-  %955 = getelementptr inbounds i8, ptr %939, i64 704
-  %956 = load <16 x float>, ptr %955, align 64
-  %957 = getelementptr inbounds i8, ptr %939, i64 384
-  %958 = load <16 x float>, ptr %957, align 64
-  %959 = getelementptr inbounds i8, ptr %939, i64 448
-  %960 = load <16 x float>, ptr %959, align 64
-  %961 = getelementptr inbounds i8, ptr %939, i64 512
-  %962 = load <16 x float>, ptr %961, align 64
-  br label %963
+896:
+  %897 = getelementptr inbounds %struct.Frame, ptr %10, i64 %885
+  %898 = getelementptr inbounds i8, ptr %897, i64 576
+  %899 = load <16 x float>, ptr %898, align 64
+  %900 = load <16 x float>, ptr %897, align 64
+  %901 = getelementptr inbounds i8, ptr %897, i64 64
+  %902 = load <16 x float>, ptr %901, align 64
+  %903 = getelementptr inbounds i8, ptr %897, i64 128
+  %904 = load <16 x float>, ptr %903, align 64
+  %905 = getelementptr inbounds i8, ptr %897, i64 640
+  %906 = load <16 x float>, ptr %905, align 64
+  %907 = getelementptr inbounds i8, ptr %897, i64 192
+  %908 = load <16 x float>, ptr %907, align 64
+  %909 = getelementptr inbounds i8, ptr %897, i64 256
+  %910 = load <16 x float>, ptr %909, align 64
+  %911 = getelementptr inbounds i8, ptr %897, i64 320
+  %912 = load <16 x float>, ptr %911, align 64
+  %913 = getelementptr inbounds i8, ptr %897, i64 704
+  %914 = load <16 x float>, ptr %913, align 64
+  %915 = getelementptr inbounds i8, ptr %897, i64 384
+  %916 = load <16 x float>, ptr %915, align 64
+  %917 = getelementptr inbounds i8, ptr %897, i64 448
+  %918 = load <16 x float>, ptr %917, align 64
+  %919 = getelementptr inbounds i8, ptr %897, i64 512
+  %920 = load <16 x float>, ptr %919, align 64
+  br label %921
 
-963:
-  %964 = phi i64 [ %934, %938 ], [ %998, %963 ]
-  %965 = getelementptr inbounds %struct.Part, ptr %192, i64 %964
-  %966 = load float, ptr %965, align 4
-  %967 = getelementptr inbounds i8, ptr %965, i64 4
-  %968 = load float, ptr %967, align 4
-  %969 = getelementptr inbounds i8, ptr %965, i64 8
-  %970 = load float, ptr %969, align 4
-  %971 = insertelement <16 x float> poison, float %966, i64 0
-  %972 = shufflevector <16 x float> %971, <16 x float> poison, <16 x i32> zeroinitializer
-  %973 = fmul contract <16 x float> %972, %942
-  %974 = fadd contract <16 x float> %941, %973
-  %975 = insertelement <16 x float> poison, float %968, i64 0
-  %976 = shufflevector <16 x float> %975, <16 x float> poison, <16 x i32> zeroinitializer
-  %977 = fmul contract <16 x float> %976, %944
-  %978 = fadd contract <16 x float> %974, %977
-  %979 = insertelement <16 x float> poison, float %970, i64 0
-  %980 = shufflevector <16 x float> %979, <16 x float> poison, <16 x i32> zeroinitializer
-  %981 = fmul contract <16 x float> %980, %946
-  %982 = fadd contract <16 x float> %978, %981
-  %983 = fmul contract <16 x float> %972, %950
-  %984 = fadd contract <16 x float> %948, %983
-  %985 = fmul contract <16 x float> %976, %952
-  %986 = fadd contract <16 x float> %984, %985
-  %987 = fmul contract <16 x float> %980, %954
-  %988 = fadd contract <16 x float> %986, %987
-  %989 = fmul contract <16 x float> %972, %958
-  %990 = fadd contract <16 x float> %956, %989
-  %991 = fmul contract <16 x float> %976, %960
-  %992 = fadd contract <16 x float> %990, %991
-  %993 = fmul contract <16 x float> %980, %962
+921:
+  %922 = phi i64 [ %892, %896 ], [ %956, %921 ]
+  %923 = getelementptr inbounds %struct.Part, ptr %150, i64 %922
+  %924 = load float, ptr %923, align 4
+  %925 = getelementptr inbounds i8, ptr %923, i64 4
+  %926 = load float, ptr %925, align 4
+  %927 = getelementptr inbounds i8, ptr %923, i64 8
+  %928 = load float, ptr %927, align 4
+  %929 = insertelement <16 x float> poison, float %924, i64 0
+  %930 = shufflevector <16 x float> %929, <16 x float> poison, <16 x i32> zeroinitializer
+  %931 = fmul contract <16 x float> %930, %900
+  %932 = fadd contract <16 x float> %899, %931
+  %933 = insertelement <16 x float> poison, float %926, i64 0
+  %934 = shufflevector <16 x float> %933, <16 x float> poison, <16 x i32> zeroinitializer
+  %935 = fmul contract <16 x float> %934, %902
+  %936 = fadd contract <16 x float> %932, %935
+  %937 = insertelement <16 x float> poison, float %928, i64 0
+  %938 = shufflevector <16 x float> %937, <16 x float> poison, <16 x i32> zeroinitializer
+  %939 = fmul contract <16 x float> %938, %904
+  %940 = fadd contract <16 x float> %936, %939
+  %941 = fmul contract <16 x float> %930, %908
+  %942 = fadd contract <16 x float> %906, %941
+  %943 = fmul contract <16 x float> %934, %910
+  %944 = fadd contract <16 x float> %942, %943
+  %945 = fmul contract <16 x float> %938, %912
+  %946 = fadd contract <16 x float> %944, %945
+  %947 = fmul contract <16 x float> %930, %916
+  %948 = fadd contract <16 x float> %914, %947
+  %949 = fmul contract <16 x float> %934, %918
+  %950 = fadd contract <16 x float> %948, %949
+  %951 = fmul contract <16 x float> %938, %920
+  %952 = fadd contract <16 x float> %950, %951
+  %953 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %922
+  store <16 x float> %940, ptr %953, align 64
+  %954 = getelementptr inbounds i8, ptr %953, i64 64
+  store <16 x float> %946, ptr %954, align 64
+  %955 = getelementptr inbounds i8, ptr %953, i64 128
+  store <16 x float> %952, ptr %955, align 64
+  %956 = add nsw i64 %922, 1
+  %957 = icmp eq i64 %956, %894
+  br i1 %957, label %958, label %921
+
+958:
+  %959 = phi i64 [ %882, %881 ], [ %890, %889 ], [ %890, %921 ]
+  %960 = add nuw nsw i64 %883, 8
+  %961 = icmp eq i64 %960, 16
+  br i1 %961, label %875, label %881
+
+962:
+  %963 = phi <16 x i32> [ %1216, %1213 ], [ %724, %875 ]
+  %964 = phi i64 [ %1217, %1213 ], [ %877, %875 ]
+  %965 = phi i1 [ %1214, %1213 ], [ false, %875 ]
+  %966 = phi i64 [ %1215, %1213 ], [ -1, %875 ]
+  %967 = getelementptr inbounds %struct.PartPair, ptr %152, i64 %964
+  %968 = load i64, ptr %967, align 8
+  %969 = getelementptr inbounds %struct.Part, ptr %150, i64 %968
+  %970 = getelementptr inbounds i8, ptr %967, i64 8
+  %971 = load i64, ptr %970, align 8
+  %972 = getelementptr inbounds %struct.Part, ptr %150, i64 %971
+  %973 = icmp eq i64 %968, %966
+  br i1 %973, label %1001, label %974
+
+974:
+  %975 = getelementptr inbounds i8, ptr %969, i64 28
+  %976 = load float, ptr %975, align 4
+  %977 = fadd contract float %803, %976
+  %978 = insertelement <16 x float> poison, float %977, i64 0
+  %979 = shufflevector <16 x float> %978, <16 x float> poison, <16 x i32> zeroinitializer
+  %980 = fadd contract <16 x float> %747, %979
+  %981 = fcmp contract ogt <16 x float> %980, %123
+  %982 = select contract <16 x i1> %981, <16 x float> %980, <16 x float> %123
+  %983 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %968
+  %984 = load <16 x float>, ptr %983, align 64
+  %985 = fsub contract <16 x float> %984, %771
+  %986 = getelementptr inbounds i8, ptr %983, i64 64
+  %987 = load <16 x float>, ptr %986, align 64
+  %988 = fsub contract <16 x float> %987, %785
+  %989 = getelementptr inbounds i8, ptr %983, i64 128
+  %990 = load <16 x float>, ptr %989, align 64
+  %991 = fsub contract <16 x float> %990, %799
+  %992 = fmul contract <16 x float> %985, %985
+  %993 = fmul contract <16 x float> %988, %988
   %994 = fadd contract <16 x float> %992, %993
-  %995 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %964
-  store <16 x float> %982, ptr %995, align 64
-  %996 = getelementptr inbounds i8, ptr %995, i64 64
-  store <16 x float> %988, ptr %996, align 64
-  %997 = getelementptr inbounds i8, ptr %995, i64 128
-  store <16 x float> %994, ptr %997, align 64
-  %998 = add nsw i64 %964, 1
-  %999 = icmp eq i64 %998, %936
-  br i1 %999, label %1000, label %963
+  %995 = fmul contract <16 x float> %991, %991
+  %996 = fadd contract <16 x float> %994, %995
+  %997 = fmul contract <16 x float> %982, %982
+  %998 = fcmp contract olt <16 x float> %996, %997
+  %999 = bitcast <16 x i1> %998 to i16
+  %1000 = icmp eq i16 %999, 0
+  br i1 %1000, label %1213, label %1002
 
-1000:
-  %1001 = phi i64 [ %924, %923 ], [ %932, %931 ], [ %932, %963 ]
-  %1002 = add nuw nsw i64 %925, 8
-  %1003 = icmp eq i64 %1002, 16
-  br i1 %1003, label %917, label %923
+1001:
+  br i1 %965, label %1002, label %1213
 
-1004:
-  %1005 = phi <16 x i32> [ %1258, %1255 ], [ %766, %917 ]
-  %1006 = phi i64 [ %1259, %1255 ], [ %919, %917 ]
-  %1007 = phi i1 [ %1256, %1255 ], [ false, %917 ]
-  %1008 = phi i64 [ %1257, %1255 ], [ -1, %917 ]
-  %1009 = getelementptr inbounds %struct.PartPair, ptr %194, i64 %1006
-  %1010 = load i64, ptr %1009, align 8
-  %1011 = getelementptr inbounds %struct.Part, ptr %192, i64 %1010
-  %1012 = getelementptr inbounds i8, ptr %1009, i64 8
-  %1013 = load i64, ptr %1012, align 8
-  %1014 = getelementptr inbounds %struct.Part, ptr %192, i64 %1013
-  %1015 = icmp eq i64 %1010, %1008
-  br i1 %1015, label %1043, label %1016
+1002:
+  %1003 = phi i64 [ %968, %974 ], [ %966, %1001 ]
+  %1004 = getelementptr inbounds i8, ptr %969, i64 28
+  %1005 = load float, ptr %1004, align 4
+  %1006 = getelementptr inbounds i8, ptr %972, i64 28
+  %1007 = load float, ptr %1006, align 4
+  %1008 = fadd contract float %1005, %1007
+  %1009 = insertelement <16 x float> poison, float %1008, i64 0
+  %1010 = shufflevector <16 x float> %1009, <16 x float> poison, <16 x i32> zeroinitializer
+  %1011 = fadd contract <16 x float> %747, %1010
+  %1012 = fcmp contract ogt <16 x float> %1011, %123
+  %1013 = select contract <16 x i1> %1012, <16 x float> %1011, <16 x float> %123
+  %1014 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %968
+  %1015 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %971
+  %1016 = load <16 x float>, ptr %1014, align 64
+  %1017 = load <16 x float>, ptr %1015, align 64
+  %1018 = fsub contract <16 x float> %1016, %1017
+  %1019 = getelementptr inbounds i8, ptr %1014, i64 64
+  %1020 = load <16 x float>, ptr %1019, align 64
+  %1021 = getelementptr inbounds i8, ptr %1015, i64 64
+  %1022 = load <16 x float>, ptr %1021, align 64
+  %1023 = fsub contract <16 x float> %1020, %1022
+  %1024 = getelementptr inbounds i8, ptr %1014, i64 128
+  %1025 = load <16 x float>, ptr %1024, align 64
+  %1026 = getelementptr inbounds i8, ptr %1015, i64 128
+  %1027 = load <16 x float>, ptr %1026, align 64
+  %1028 = fsub contract <16 x float> %1025, %1027
+  %1029 = fmul contract <16 x float> %1018, %1018
+  %1030 = fmul contract <16 x float> %1023, %1023
+  %1031 = fadd contract <16 x float> %1029, %1030
+  %1032 = fmul contract <16 x float> %1028, %1028
+  %1033 = fadd contract <16 x float> %1031, %1032
+  %1034 = fmul contract <16 x float> %1013, %1013
+  %1035 = fcmp contract olt <16 x float> %1033, %1034
+  %1036 = bitcast <16 x i1> %1035 to i16
+  %1037 = icmp eq i16 %1036, 0
+  br i1 %1037, label %1213, label %1038
 
-1016:
-  %1017 = getelementptr inbounds i8, ptr %1011, i64 28
-  %1018 = load float, ptr %1017, align 4
-  %1019 = fadd contract float %845, %1018
-  %1020 = insertelement <16 x float> poison, float %1019, i64 0
-  %1021 = shufflevector <16 x float> %1020, <16 x float> poison, <16 x i32> zeroinitializer
-  %1022 = fadd contract <16 x float> %789, %1021
-  %1023 = fcmp contract ogt <16 x float> %1022, %164
-  %1024 = select contract <16 x i1> %1023, <16 x float> %1022, <16 x float> %164
-  %1025 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1010
-  %1026 = load <16 x float>, ptr %1025, align 64
-  %1027 = fsub contract <16 x float> %1026, %813
-  %1028 = getelementptr inbounds i8, ptr %1025, i64 64
-  %1029 = load <16 x float>, ptr %1028, align 64
-  %1030 = fsub contract <16 x float> %1029, %827
-  %1031 = getelementptr inbounds i8, ptr %1025, i64 128
-  %1032 = load <16 x float>, ptr %1031, align 64
-  %1033 = fsub contract <16 x float> %1032, %841
-  %1034 = fmul contract <16 x float> %1027, %1027
-  %1035 = fmul contract <16 x float> %1030, %1030
-  %1036 = fadd contract <16 x float> %1034, %1035
-  %1037 = fmul contract <16 x float> %1033, %1033
-  %1038 = fadd contract <16 x float> %1036, %1037
-  %1039 = fmul contract <16 x float> %1024, %1024
-  %1040 = fcmp contract olt <16 x float> %1038, %1039
-  %1041 = bitcast <16 x i1> %1040 to i16
-  %1042 = icmp eq i16 %1041, 0
-  br i1 %1042, label %1255, label %1044
+1038:
+  %1039 = getelementptr inbounds i8, ptr %969, i64 24
+  %1040 = load float, ptr %1039, align 4
+  %1041 = getelementptr inbounds i8, ptr %972, i64 24
+  %1042 = load float, ptr %1041, align 4
+  %1043 = fadd contract float %1040, %1042
+  %1044 = insertelement <16 x float> poison, float %1043, i64 0
+  %1045 = shufflevector <16 x float> %1044, <16 x float> poison, <16 x i32> zeroinitializer
+  %1046 = fadd contract <16 x float> %747, %1045
+  %1047 = fcmp contract ogt <16 x float> %1046, %123
+  %1048 = select contract <16 x i1> %1047, <16 x float> %1046, <16 x float> %123
+  %1049 = getelementptr inbounds i8, ptr %969, i64 12
+  %1050 = load float, ptr %1049, align 4
+  %1051 = fmul contract float %1050, %1050
+  %1052 = getelementptr inbounds i8, ptr %969, i64 16
+  %1053 = load float, ptr %1052, align 4
+  %1054 = fmul contract float %1053, %1053
+  %1055 = fadd contract float %1051, %1054
+  %1056 = getelementptr inbounds i8, ptr %969, i64 20
+  %1057 = load float, ptr %1056, align 4
+  %1058 = fmul contract float %1057, %1057
+  %1059 = fadd contract float %1055, %1058
+  %1060 = getelementptr inbounds i8, ptr %972, i64 12
+  %1061 = load float, ptr %1060, align 4
+  %1062 = fmul contract float %1061, %1061
+  %1063 = getelementptr inbounds i8, ptr %972, i64 16
+  %1064 = load float, ptr %1063, align 4
+  %1065 = fmul contract float %1064, %1064
+  %1066 = fadd contract float %1062, %1065
+  %1067 = getelementptr inbounds i8, ptr %972, i64 20
+  %1068 = load float, ptr %1067, align 4
+  %1069 = fmul contract float %1068, %1068
+  %1070 = fadd contract float %1066, %1069
+  %1071 = fcmp contract oeq float %1059, 0.000000e+00
+  %1072 = fcmp contract oeq float %1070, 0.000000e+00
+  %1073 = select i1 %1071, i1 %1072, i1 false
+  br i1 %1073, label %1205, label %1074
 
-1043:
-  br i1 %1007, label %1044, label %1255
-
-1044:
-  %1045 = phi i64 [ %1010, %1016 ], [ %1008, %1043 ]
-  %1046 = getelementptr inbounds i8, ptr %1011, i64 28
-  %1047 = load float, ptr %1046, align 4
-  %1048 = getelementptr inbounds i8, ptr %1014, i64 28
-  %1049 = load float, ptr %1048, align 4
-  %1050 = fadd contract float %1047, %1049
-  %1051 = insertelement <16 x float> poison, float %1050, i64 0
-  %1052 = shufflevector <16 x float> %1051, <16 x float> poison, <16 x i32> zeroinitializer
-  %1053 = fadd contract <16 x float> %789, %1052
-  %1054 = fcmp contract ogt <16 x float> %1053, %164
-  %1055 = select contract <16 x i1> %1054, <16 x float> %1053, <16 x float> %164
-  %1056 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1010
-  %1057 = getelementptr inbounds [192 x %struct.Point], ptr %6, i64 0, i64 %1013
-  %1058 = load <16 x float>, ptr %1056, align 64
-  %1059 = load <16 x float>, ptr %1057, align 64
-  %1060 = fsub contract <16 x float> %1058, %1059
-  %1061 = getelementptr inbounds i8, ptr %1056, i64 64
-  %1062 = load <16 x float>, ptr %1061, align 64
-  %1063 = getelementptr inbounds i8, ptr %1057, i64 64
-  %1064 = load <16 x float>, ptr %1063, align 64
-  %1065 = fsub contract <16 x float> %1062, %1064
-  %1066 = getelementptr inbounds i8, ptr %1056, i64 128
-  %1067 = load <16 x float>, ptr %1066, align 64
-  %1068 = getelementptr inbounds i8, ptr %1057, i64 128
-  %1069 = load <16 x float>, ptr %1068, align 64
-  %1070 = fsub contract <16 x float> %1067, %1069
-  %1071 = fmul contract <16 x float> %1060, %1060
-  %1072 = fmul contract <16 x float> %1065, %1065
-  %1073 = fadd contract <16 x float> %1071, %1072
-  %1074 = fmul contract <16 x float> %1070, %1070
-  %1075 = fadd contract <16 x float> %1073, %1074
-  %1076 = fmul contract <16 x float> %1055, %1055
-  %1077 = fcmp contract olt <16 x float> %1075, %1076
-  %1078 = bitcast <16 x i1> %1077 to i16
-  %1079 = icmp eq i16 %1078, 0
-  br i1 %1079, label %1255, label %1080
-
-1080:
-  %1081 = getelementptr inbounds i8, ptr %1011, i64 24
-  %1082 = load float, ptr %1081, align 4
-  %1083 = getelementptr inbounds i8, ptr %1014, i64 24
-  %1084 = load float, ptr %1083, align 4
-  %1085 = fadd contract float %1082, %1084
-  %1086 = insertelement <16 x float> poison, float %1085, i64 0
-  %1087 = shufflevector <16 x float> %1086, <16 x float> poison, <16 x i32> zeroinitializer
-  %1088 = fadd contract <16 x float> %789, %1087
-  %1089 = fcmp contract ogt <16 x float> %1088, %164
-  %1090 = select contract <16 x i1> %1089, <16 x float> %1088, <16 x float> %164
-  %1091 = getelementptr inbounds i8, ptr %1011, i64 12
-  %1092 = load float, ptr %1091, align 4
-  %1093 = fmul contract float %1092, %1092
-  %1094 = getelementptr inbounds i8, ptr %1011, i64 16
-  %1095 = load float, ptr %1094, align 4
-  %1096 = fmul contract float %1095, %1095
-  %1097 = fadd contract float %1093, %1096
-  %1098 = getelementptr inbounds i8, ptr %1011, i64 20
-  %1099 = load float, ptr %1098, align 4
-  %1100 = fmul contract float %1099, %1099
-  %1101 = fadd contract float %1097, %1100
-  %1102 = getelementptr inbounds i8, ptr %1014, i64 12
-  %1103 = load float, ptr %1102, align 4
-  %1104 = fmul contract float %1103, %1103
-  %1105 = getelementptr inbounds i8, ptr %1014, i64 16
-  %1106 = load float, ptr %1105, align 4
-  %1107 = fmul contract float %1106, %1106
-  %1108 = fadd contract float %1104, %1107
-  %1109 = getelementptr inbounds i8, ptr %1014, i64 20
-  %1110 = load float, ptr %1109, align 4
-  %1111 = fmul contract float %1110, %1110
-  %1112 = fadd contract float %1108, %1111
-  %1113 = fcmp contract oeq float %1101, 0.000000e+00
-  %1114 = fcmp contract oeq float %1112, 0.000000e+00
-  %1115 = select i1 %1113, i1 %1114, i1 false
-  br i1 %1115, label %1247, label %1116
-
-1116:
-  %1117 = fmul contract <16 x float> %1058, zeroinitializer
-  %1118 = fadd contract <16 x float> %1117, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %1119 = insertelement <16 x float> poison, float %1092, i64 0
-  %1120 = shufflevector <16 x float> %1119, <16 x float> poison, <16 x i32> zeroinitializer
-  %1121 = fmul contract <16 x float> %859, %1120
-  %1122 = insertelement <16 x float> poison, float %1095, i64 0
-  %1123 = shufflevector <16 x float> %1122, <16 x float> poison, <16 x i32> zeroinitializer
-  %1124 = fmul contract <16 x float> %865, %1123
-  %1125 = fadd contract <16 x float> %1121, %1124
-  %1126 = insertelement <16 x float> poison, float %1099, i64 0
-  %1127 = shufflevector <16 x float> %1126, <16 x float> poison, <16 x i32> zeroinitializer
-  %1128 = fmul contract <16 x float> %871, %1127
-  %1129 = fadd contract <16 x float> %1125, %1128
-  %1130 = fmul contract <16 x float> %879, %1120
-  %1131 = fmul contract <16 x float> %883, %1123
+1074:
+  %1075 = fmul contract <16 x float> %1016, zeroinitializer
+  %1076 = fadd contract <16 x float> %1075, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %1077 = insertelement <16 x float> poison, float %1050, i64 0
+  %1078 = shufflevector <16 x float> %1077, <16 x float> poison, <16 x i32> zeroinitializer
+  %1079 = fmul contract <16 x float> %817, %1078
+  %1080 = insertelement <16 x float> poison, float %1053, i64 0
+  %1081 = shufflevector <16 x float> %1080, <16 x float> poison, <16 x i32> zeroinitializer
+  %1082 = fmul contract <16 x float> %823, %1081
+  %1083 = fadd contract <16 x float> %1079, %1082
+  %1084 = insertelement <16 x float> poison, float %1057, i64 0
+  %1085 = shufflevector <16 x float> %1084, <16 x float> poison, <16 x i32> zeroinitializer
+  %1086 = fmul contract <16 x float> %829, %1085
+  %1087 = fadd contract <16 x float> %1083, %1086
+  %1088 = fmul contract <16 x float> %837, %1078
+  %1089 = fmul contract <16 x float> %841, %1081
+  %1090 = fadd contract <16 x float> %1088, %1089
+  %1091 = fmul contract <16 x float> %845, %1085
+  %1092 = fadd contract <16 x float> %1090, %1091
+  %1093 = fmul contract <16 x float> %851, %1078
+  %1094 = fmul contract <16 x float> %855, %1081
+  %1095 = fadd contract <16 x float> %1093, %1094
+  %1096 = fmul contract <16 x float> %859, %1085
+  %1097 = fadd contract <16 x float> %1095, %1096
+  %1098 = insertelement <16 x float> poison, float %1061, i64 0
+  %1099 = shufflevector <16 x float> %1098, <16 x float> poison, <16 x i32> zeroinitializer
+  %1100 = fmul contract <16 x float> %755, %1099
+  %1101 = insertelement <16 x float> poison, float %1064, i64 0
+  %1102 = shufflevector <16 x float> %1101, <16 x float> poison, <16 x i32> zeroinitializer
+  %1103 = fmul contract <16 x float> %761, %1102
+  %1104 = fadd contract <16 x float> %1100, %1103
+  %1105 = insertelement <16 x float> poison, float %1068, i64 0
+  %1106 = shufflevector <16 x float> %1105, <16 x float> poison, <16 x i32> zeroinitializer
+  %1107 = fmul contract <16 x float> %767, %1106
+  %1108 = fadd contract <16 x float> %1104, %1107
+  %1109 = fmul contract <16 x float> %775, %1099
+  %1110 = fmul contract <16 x float> %779, %1102
+  %1111 = fadd contract <16 x float> %1109, %1110
+  %1112 = fmul contract <16 x float> %783, %1106
+  %1113 = fadd contract <16 x float> %1111, %1112
+  %1114 = fmul contract <16 x float> %789, %1099
+  %1115 = fmul contract <16 x float> %793, %1102
+  %1116 = fadd contract <16 x float> %1114, %1115
+  %1117 = fmul contract <16 x float> %797, %1106
+  %1118 = fadd contract <16 x float> %1116, %1117
+  %1119 = fcmp contract ogt float %1059, 0.000000e+00
+  %1120 = fdiv contract float 1.000000e+00, %1059
+  %1121 = select contract i1 %1119, float %1120, float 0.000000e+00
+  %1122 = fcmp contract ogt float %1070, 0.000000e+00
+  %1123 = fdiv contract float 1.000000e+00, %1070
+  %1124 = select contract i1 %1122, float %1123, float 0.000000e+00
+  %1125 = fmul contract <16 x float> %1087, %1108
+  %1126 = fmul contract <16 x float> %1092, %1113
+  %1127 = fadd contract <16 x float> %1125, %1126
+  %1128 = fmul contract <16 x float> %1097, %1118
+  %1129 = fadd contract <16 x float> %1128, %1127
+  %1130 = fmul contract <16 x float> %1018, %1087
+  %1131 = fmul contract <16 x float> %1023, %1092
   %1132 = fadd contract <16 x float> %1130, %1131
-  %1133 = fmul contract <16 x float> %887, %1127
-  %1134 = fadd contract <16 x float> %1132, %1133
-  %1135 = fmul contract <16 x float> %893, %1120
-  %1136 = fmul contract <16 x float> %897, %1123
+  %1133 = fmul contract <16 x float> %1028, %1097
+  %1134 = fadd contract <16 x float> %1133, %1132
+  %1135 = fmul contract <16 x float> %1018, %1108
+  %1136 = fmul contract <16 x float> %1023, %1113
   %1137 = fadd contract <16 x float> %1135, %1136
-  %1138 = fmul contract <16 x float> %901, %1127
-  %1139 = fadd contract <16 x float> %1137, %1138
-  %1140 = insertelement <16 x float> poison, float %1103, i64 0
-  %1141 = shufflevector <16 x float> %1140, <16 x float> poison, <16 x i32> zeroinitializer
-  %1142 = fmul contract <16 x float> %797, %1141
-  %1143 = insertelement <16 x float> poison, float %1106, i64 0
-  %1144 = shufflevector <16 x float> %1143, <16 x float> poison, <16 x i32> zeroinitializer
-  %1145 = fmul contract <16 x float> %803, %1144
-  %1146 = fadd contract <16 x float> %1142, %1145
-  %1147 = insertelement <16 x float> poison, float %1110, i64 0
+  %1138 = fmul contract <16 x float> %1028, %1118
+  %1139 = fadd contract <16 x float> %1138, %1137
+  %1140 = fmul contract float %1059, %1070
+  %1141 = insertelement <16 x float> poison, float %1140, i64 0
+  %1142 = shufflevector <16 x float> %1141, <16 x float> poison, <16 x i32> zeroinitializer
+  %1143 = fmul contract <16 x float> %1129, %1129
+  %1144 = fsub contract <16 x float> %1142, %1143
+  %1145 = fmul contract float %1059, 0x3E7AD7F2A0000000
+  %1146 = fmul contract float %1145, %1070
+  %1147 = insertelement <16 x float> poison, float %1146, i64 0
   %1148 = shufflevector <16 x float> %1147, <16 x float> poison, <16 x i32> zeroinitializer
-  %1149 = fmul contract <16 x float> %809, %1148
-  %1150 = fadd contract <16 x float> %1146, %1149
-  %1151 = fmul contract <16 x float> %817, %1141
-  %1152 = fmul contract <16 x float> %821, %1144
-  %1153 = fadd contract <16 x float> %1151, %1152
-  %1154 = fmul contract <16 x float> %825, %1148
-  %1155 = fadd contract <16 x float> %1153, %1154
-  %1156 = fmul contract <16 x float> %831, %1141
-  %1157 = fmul contract <16 x float> %835, %1144
-  %1158 = fadd contract <16 x float> %1156, %1157
-  %1159 = fmul contract <16 x float> %839, %1148
-  %1160 = fadd contract <16 x float> %1158, %1159
-  %1161 = fcmp contract ogt float %1101, 0.000000e+00
-  %1162 = fdiv contract float 1.000000e+00, %1101
-  %1163 = select contract i1 %1161, float %1162, float 0.000000e+00
-  %1164 = fcmp contract ogt float %1112, 0.000000e+00
-  %1165 = fdiv contract float 1.000000e+00, %1112
-  %1166 = select contract i1 %1164, float %1165, float 0.000000e+00
-  %1167 = fmul contract <16 x float> %1129, %1150
-  %1168 = fmul contract <16 x float> %1134, %1155
-  %1169 = fadd contract <16 x float> %1167, %1168
-  %1170 = fmul contract <16 x float> %1139, %1160
-  %1171 = fadd contract <16 x float> %1170, %1169
-  %1172 = fmul contract <16 x float> %1060, %1129
-  %1173 = fmul contract <16 x float> %1065, %1134
-  %1174 = fadd contract <16 x float> %1172, %1173
-  %1175 = fmul contract <16 x float> %1070, %1139
-  %1176 = fadd contract <16 x float> %1175, %1174
-  %1177 = fmul contract <16 x float> %1060, %1150
-  %1178 = fmul contract <16 x float> %1065, %1155
-  %1179 = fadd contract <16 x float> %1177, %1178
-  %1180 = fmul contract <16 x float> %1070, %1160
-  %1181 = fadd contract <16 x float> %1180, %1179
-  %1182 = fmul contract float %1101, %1112
-  %1183 = insertelement <16 x float> poison, float %1182, i64 0
-  %1184 = shufflevector <16 x float> %1183, <16 x float> poison, <16 x i32> zeroinitializer
-  %1185 = fmul contract <16 x float> %1171, %1171
-  %1186 = fsub contract <16 x float> %1184, %1185
-  %1187 = fmul contract float %1101, 0x3E7AD7F2A0000000
-  %1188 = fmul contract float %1187, %1112
-  %1189 = insertelement <16 x float> poison, float %1188, i64 0
-  %1190 = shufflevector <16 x float> %1189, <16 x float> poison, <16 x i32> zeroinitializer
-  %1191 = fcmp contract ogt <16 x float> %1186, %1190
-  %1192 = fmul contract <16 x float> %1171, %1181
-  %1193 = insertelement <16 x float> poison, float %1112, i64 0
-  %1194 = shufflevector <16 x float> %1193, <16 x float> poison, <16 x i32> zeroinitializer
-  %1195 = fmul contract <16 x float> %1194, %1176
-  %1196 = fsub contract <16 x float> %1192, %1195
-  %1197 = select contract <16 x i1> %1191, <16 x float> %1186, <16 x float> %1118
-  %1198 = fdiv contract <16 x float> %1196, %1197
-  %1199 = fneg contract <16 x float> %1118
-  %1200 = fcmp contract ogt <16 x float> %1198, %1199
-  %1201 = select contract <16 x i1> %1200, <16 x float> %1198, <16 x float> %1199
-  %1202 = fcmp contract olt <16 x float> %1201, %1118
-  %1203 = select contract <16 x i1> %1202, <16 x float> %1201, <16 x float> %1118
-  %1204 = select contract <16 x i1> %1191, <16 x float> %1203, <16 x float> %1199
-  %1205 = fmul contract <16 x float> %1171, %1204
-  %1206 = fadd contract <16 x float> %1181, %1205
-  %1207 = insertelement <16 x float> poison, float %1166, i64 0
-  %1208 = shufflevector <16 x float> %1207, <16 x float> poison, <16 x i32> zeroinitializer
-  %1209 = fmul contract <16 x float> %1208, %1206
-  %1210 = fcmp contract ogt <16 x float> %1209, %1199
-  %1211 = select contract <16 x i1> %1210, <16 x float> %1209, <16 x float> %1199
-  %1212 = fcmp contract olt <16 x float> %1211, %1118
-  %1213 = select contract <16 x i1> %1212, <16 x float> %1211, <16 x float> %1118
-  %1214 = fmul contract <16 x float> %1171, %1213
-  %1215 = fsub contract <16 x float> %1214, %1176
-  %1216 = insertelement <16 x float> poison, float %1163, i64 0
-  %1217 = shufflevector <16 x float> %1216, <16 x float> poison, <16 x i32> zeroinitializer
-  %1218 = fmul contract <16 x float> %1217, %1215
-  %1219 = fcmp contract ogt <16 x float> %1218, %1199
-  %1220 = select contract <16 x i1> %1219, <16 x float> %1218, <16 x float> %1199
-  %1221 = fcmp contract olt <16 x float> %1220, %1118
-  %1222 = select contract <16 x i1> %1221, <16 x float> %1220, <16 x float> %1118
-  %1223 = fmul contract <16 x float> %1171, %1222
-  %1224 = fadd contract <16 x float> %1181, %1223
-  %1225 = fmul contract <16 x float> %1208, %1224
-  %1226 = fcmp contract ogt <16 x float> %1225, %1199
-  %1227 = select contract <16 x i1> %1226, <16 x float> %1225, <16 x float> %1199
-  %1228 = fcmp contract olt <16 x float> %1227, %1118
-  %1229 = select contract <16 x i1> %1228, <16 x float> %1227, <16 x float> %1118
-  %1230 = fmul contract <16 x float> %1129, %1222
-  %1231 = fadd contract <16 x float> %1060, %1230
-  %1232 = fmul contract <16 x float> %1150, %1229
-  %1233 = fsub contract <16 x float> %1231, %1232
-  %1234 = fmul contract <16 x float> %1134, %1222
-  %1235 = fadd contract <16 x float> %1065, %1234
-  %1236 = fmul contract <16 x float> %1155, %1229
-  %1237 = fsub contract <16 x float> %1235, %1236
-  %1238 = fmul contract <16 x float> %1139, %1222
-  %1239 = fadd contract <16 x float> %1070, %1238
-  %1240 = fmul contract <16 x float> %1160, %1229
-  %1241 = fsub contract <16 x float> %1239, %1240
-  %1242 = fmul contract <16 x float> %1233, %1233
-  %1243 = fmul contract <16 x float> %1237, %1237
-  %1244 = fadd contract <16 x float> %1242, %1243
-  %1245 = fmul contract <16 x float> %1241, %1241
-  %1246 = fadd contract <16 x float> %1245, %1244
-  br label %1247
+  %1149 = fcmp contract ogt <16 x float> %1144, %1148
+  %1150 = fmul contract <16 x float> %1129, %1139
+  %1151 = insertelement <16 x float> poison, float %1070, i64 0
+  %1152 = shufflevector <16 x float> %1151, <16 x float> poison, <16 x i32> zeroinitializer
+  %1153 = fmul contract <16 x float> %1152, %1134
+  %1154 = fsub contract <16 x float> %1150, %1153
+  %1155 = select contract <16 x i1> %1149, <16 x float> %1144, <16 x float> %1076
+  %1156 = fdiv contract <16 x float> %1154, %1155
+  %1157 = fneg contract <16 x float> %1076
+  %1158 = fcmp contract ogt <16 x float> %1156, %1157
+  %1159 = select contract <16 x i1> %1158, <16 x float> %1156, <16 x float> %1157
+  %1160 = fcmp contract olt <16 x float> %1159, %1076
+  %1161 = select contract <16 x i1> %1160, <16 x float> %1159, <16 x float> %1076
+  %1162 = select contract <16 x i1> %1149, <16 x float> %1161, <16 x float> %1157
+  %1163 = fmul contract <16 x float> %1129, %1162
+  %1164 = fadd contract <16 x float> %1139, %1163
+  %1165 = insertelement <16 x float> poison, float %1124, i64 0
+  %1166 = shufflevector <16 x float> %1165, <16 x float> poison, <16 x i32> zeroinitializer
+  %1167 = fmul contract <16 x float> %1166, %1164
+  %1168 = fcmp contract ogt <16 x float> %1167, %1157
+  %1169 = select contract <16 x i1> %1168, <16 x float> %1167, <16 x float> %1157
+  %1170 = fcmp contract olt <16 x float> %1169, %1076
+  %1171 = select contract <16 x i1> %1170, <16 x float> %1169, <16 x float> %1076
+  %1172 = fmul contract <16 x float> %1129, %1171
+  %1173 = fsub contract <16 x float> %1172, %1134
+  %1174 = insertelement <16 x float> poison, float %1121, i64 0
+  %1175 = shufflevector <16 x float> %1174, <16 x float> poison, <16 x i32> zeroinitializer
+  %1176 = fmul contract <16 x float> %1175, %1173
+  %1177 = fcmp contract ogt <16 x float> %1176, %1157
+  %1178 = select contract <16 x i1> %1177, <16 x float> %1176, <16 x float> %1157
+  %1179 = fcmp contract olt <16 x float> %1178, %1076
+  %1180 = select contract <16 x i1> %1179, <16 x float> %1178, <16 x float> %1076
+  %1181 = fmul contract <16 x float> %1129, %1180
+  %1182 = fadd contract <16 x float> %1139, %1181
+  %1183 = fmul contract <16 x float> %1166, %1182
+  %1184 = fcmp contract ogt <16 x float> %1183, %1157
+  %1185 = select contract <16 x i1> %1184, <16 x float> %1183, <16 x float> %1157
+  %1186 = fcmp contract olt <16 x float> %1185, %1076
+  %1187 = select contract <16 x i1> %1186, <16 x float> %1185, <16 x float> %1076
+  %1188 = fmul contract <16 x float> %1087, %1180
+  %1189 = fadd contract <16 x float> %1018, %1188
+  %1190 = fmul contract <16 x float> %1108, %1187
+  %1191 = fsub contract <16 x float> %1189, %1190
+  %1192 = fmul contract <16 x float> %1092, %1180
+  %1193 = fadd contract <16 x float> %1023, %1192
+  %1194 = fmul contract <16 x float> %1113, %1187
+  %1195 = fsub contract <16 x float> %1193, %1194
+  %1196 = fmul contract <16 x float> %1097, %1180
+  %1197 = fadd contract <16 x float> %1028, %1196
+  %1198 = fmul contract <16 x float> %1118, %1187
+  %1199 = fsub contract <16 x float> %1197, %1198
+  %1200 = fmul contract <16 x float> %1191, %1191
+  %1201 = fmul contract <16 x float> %1195, %1195
+  %1202 = fadd contract <16 x float> %1200, %1201
+  %1203 = fmul contract <16 x float> %1199, %1199
+  %1204 = fadd contract <16 x float> %1203, %1202
+  br label %1205
 
-1247:
-  %1248 = phi <16 x float> [ %1246, %1116 ], [ %1075, %1080 ]
-  %1249 = fmul contract <16 x float> %1090, %1090
-  %1250 = fcmp contract olt <16 x float> %1248, %1249
-  %1251 = select <16 x i1> %1250, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1005
-  %1252 = icmp ne <16 x i32> %1251, zeroinitializer
-  %1253 = bitcast <16 x i1> %1252 to i16
-  %1254 = icmp eq i16 %1253, 0
-  br i1 %1254, label %1255, label %1268
+1205:
+  %1206 = phi <16 x float> [ %1204, %1074 ], [ %1033, %1038 ]
+  %1207 = fmul contract <16 x float> %1048, %1048
+  %1208 = fcmp contract olt <16 x float> %1206, %1207
+  %1209 = select <16 x i1> %1208, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %963
+  %1210 = icmp ne <16 x i32> %1209, zeroinitializer
+  %1211 = bitcast <16 x i1> %1210 to i16
+  %1212 = icmp eq i16 %1211, 0
+  br i1 %1212, label %1213, label %1226
 
-1255:
-  %1256 = phi i1 [ true, %1044 ], [ false, %1043 ], [ true, %1247 ], [ false, %1016 ]
-  %1257 = phi i64 [ %1045, %1044 ], [ %1008, %1043 ], [ %1045, %1247 ], [ %1010, %1016 ]
-  %1258 = phi <16 x i32> [ %1005, %1044 ], [ %1005, %1043 ], [ %1251, %1247 ], [ %1005, %1016 ]
-  %1259 = add i64 %1006, 1
-  %1260 = icmp eq i64 %1259, %921
-  br i1 %1260, label %1261, label %1004
+1213:
+  %1214 = phi i1 [ true, %1002 ], [ false, %1001 ], [ true, %1205 ], [ false, %974 ]
+  %1215 = phi i64 [ %1003, %1002 ], [ %966, %1001 ], [ %1003, %1205 ], [ %968, %974 ]
+  %1216 = phi <16 x i32> [ %963, %1002 ], [ %963, %1001 ], [ %1209, %1205 ], [ %963, %974 ]
+  %1217 = add i64 %964, 1
+  %1218 = icmp eq i64 %1217, %879
+  br i1 %1218, label %1219, label %962
 
-1261:
-  %1262 = phi <16 x i32> [ %766, %917 ], [ %1258, %1255 ]
+1219:
+  %1220 = phi <16 x i32> [ %724, %875 ], [ %1216, %1213 ]
   call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
-  br label %1263
+  br label %1221
 
-1263:
-  %1264 = phi <16 x i32> [ %1262, %1261 ], [ %766, %765 ]
-  %1265 = phi i64 [ %1001, %1261 ], [ %767, %765 ]
-  %1266 = add nuw nsw i64 %768, 1
-  %1267 = icmp eq i64 %1266, %21
-  br i1 %1267, label %1269, label %765
+1221:
+  %1222 = phi <16 x i32> [ %1220, %1219 ], [ %724, %723 ]
+  %1223 = phi i64 [ %959, %1219 ], [ %725, %723 ]
+  %1224 = add nuw nsw i64 %726, 1
+  %1225 = icmp eq i64 %1224, %20
+  br i1 %1225, label %1227, label %723
 
-1268:
+1226:
   call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
-  br label %1269
+  br label %1227
 
-1269:
-  %1270 = phi <16 x i32> [ %1251, %1268 ], [ %764, %763 ], [ %1264, %1263 ]
+1227:
+  %1228 = phi <16 x i32> [ %1209, %1226 ], [ %722, %721 ], [ %1222, %1221 ]
   call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
-  br label %1271
+  br label %1229
 
-1271:
-  %1272 = phi <16 x i32> [ %1270, %1269 ], [ %746, %742 ], [ %751, %750 ]
-  %1273 = icmp ne <16 x i32> %1272, zeroinitializer
-  %1274 = bitcast <16 x i1> %1273 to i16
-  %1275 = icmp eq i16 %1274, 0
-  br i1 %1275, label %204, label %1276
+1229:
+  %1230 = phi <16 x i32> [ %1228, %1227 ], [ %704, %700 ], [ %709, %708 ]
+  %1231 = icmp ne <16 x i32> %1230, zeroinitializer
+  %1232 = bitcast <16 x i1> %1231 to i16
+  %1233 = icmp eq i16 %1232, 0
+  br i1 %1233, label %162, label %1234
 
-1276:
-  %1277 = phi i1 [ true, %153 ], [ %206, %204 ], [ %209, %1271 ]
-  call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %11)
-  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %10)
+1234:
+  %1235 = phi i1 [ true, %112 ], [ %164, %162 ], [ %167, %1229 ]
+  call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %10)
   call void @llvm.lifetime.end.p0(i64 1224, ptr nonnull %9)
-  ret i1 %1277
+  ret i1 %1235
 }
 
 declare void @llvm.lifetime.end.p0(i64 immarg, ptr nocapture)
@@ -1549,11 +1486,11 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
   br i1 %16, label %17, label %39
 
 17:
-  %18 = getelementptr inbounds i8, ptr %0, i64 112
-  %19 = getelementptr inbounds i8, ptr %11, i64 136
+  %18 = getelementptr inbounds i8, ptr %11, i64 272
+  %19 = getelementptr inbounds i8, ptr %0, i64 112
   %20 = getelementptr inbounds i8, ptr %0, i64 16
   %21 = getelementptr inbounds i8, ptr %0, i64 120
-  %22 = getelementptr inbounds i8, ptr %11, i64 272
+  %22 = getelementptr inbounds i8, ptr %11, i64 136
   %23 = getelementptr inbounds i8, ptr %11, i64 1360
   %24 = getelementptr inbounds i8, ptr %13, i64 576
   %25 = getelementptr inbounds i8, ptr %0, i64 24
@@ -1576,7 +1513,7 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
   ret void
 
 40:
-  %41 = phi i64 [ 0, %17 ], [ %1321, %1318 ]
+  %41 = phi i64 [ 0, %17 ], [ %1339, %1336 ]
   %42 = mul nsw i64 %41, %15
   %43 = getelementptr inbounds double, ptr %1, i64 %42
   %44 = getelementptr inbounds double, ptr %2, i64 %42
@@ -1588,1502 +1525,1526 @@ define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture nounde
 
 48:
   %49 = icmp eq i64 %46, 0
-  %50 = load ptr, ptr %18, align 8
+  %50 = load ptr, ptr %19, align 8
   br label %57
 
 51:
   %52 = load i64, ptr %20, align 8
   %53 = icmp sgt i64 %52, 0
-  br i1 %53, label %54, label %139
+  br i1 %53, label %54, label %103
 
 54:
   %55 = icmp sgt i64 %46, 0
   %56 = load ptr, ptr %21, align 8
-  br label %98
+  br label %80
 
 57:
-  %58 = phi i64 [ 0, %48 ], [ %96, %93 ]
+  %58 = phi i64 [ 0, %48 ], [ %78, %75 ]
   %59 = mul nuw nsw i64 %58, %46
   %60 = getelementptr inbounds double, ptr %50, i64 %59
-  br i1 %49, label %61, label %63
+  br i1 %49, label %75, label %61
 
 61:
-  %62 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %58
-  store double 0.000000e+00, ptr %62, align 8
-  br label %93
-
-63:
-  %64 = phi i64 [ %75, %63 ], [ 0, %57 ]
-  %65 = phi double [ %74, %63 ], [ 0.000000e+00, %57 ]
-  %66 = getelementptr inbounds double, ptr %60, i64 %64
+  %62 = phi i64 [ %73, %61 ], [ 0, %57 ]
+  %63 = phi double [ %72, %61 ], [ 0.000000e+00, %57 ]
+  %64 = getelementptr inbounds double, ptr %60, i64 %62
+  %65 = load double, ptr %64, align 8
+  %66 = getelementptr inbounds double, ptr %44, i64 %62
   %67 = load double, ptr %66, align 8
-  %68 = getelementptr inbounds double, ptr %44, i64 %64
-  %69 = load double, ptr %68, align 8
-  %70 = fcmp contract olt double %69, 0.000000e+00
-  %71 = fneg contract double %69
-  %72 = select contract i1 %70, double %71, double %69
-  %73 = fmul contract double %67, %72
-  %74 = fadd contract double %65, %73
-  %75 = add nuw nsw i64 %64, 1
-  %76 = icmp eq i64 %75, %46
-  br i1 %76, label %77, label %63
+  %68 = fcmp contract olt double %67, 0.000000e+00
+  %69 = fneg contract double %67
+  %70 = select contract i1 %68, double %69, double %67
+  %71 = fmul contract double %65, %70
+  %72 = fadd contract double %63, %71
+  %73 = add nuw nsw i64 %62, 1
+  %74 = icmp eq i64 %73, %46
+  br i1 %74, label %75, label %61
 
-77:
-  %78 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %58
-  store double %74, ptr %78, align 8
-  br label %79
+75:
+  %76 = phi double [ 0.000000e+00, %57 ], [ %72, %61 ]
+  %77 = getelementptr inbounds double, ptr %11, i64 %58
+  store double %76, ptr %77, align 8
+  %78 = add nuw i64 %58, 1
+  %79 = icmp eq i64 %58, %46
+  br i1 %79, label %51, label %57
 
-79:
-  %80 = phi i64 [ %91, %79 ], [ 0, %77 ]
-  %81 = phi double [ %90, %79 ], [ 0.000000e+00, %77 ]
-  %82 = getelementptr inbounds double, ptr %60, i64 %80
-  %83 = load double, ptr %82, align 8
-  %84 = getelementptr inbounds double, ptr %45, i64 %80
-  %85 = load double, ptr %84, align 8
-  %86 = fcmp contract olt double %85, 0.000000e+00
-  %87 = fneg contract double %85
-  %88 = select contract i1 %86, double %87, double %85
-  %89 = fmul contract double %83, %88
-  %90 = fadd contract double %81, %89
-  %91 = add nuw nsw i64 %80, 1
-  %92 = icmp eq i64 %91, %46
-  br i1 %92, label %93, label %79
+80:
+  %81 = phi i64 [ 0, %54 ], [ %101, %98 ]
+  %82 = mul nsw i64 %81, %46
+  %83 = getelementptr inbounds double, ptr %56, i64 %82
+  br i1 %55, label %84, label %98
 
-93:
-  %94 = phi double [ 0.000000e+00, %61 ], [ %90, %79 ]
-  %95 = getelementptr inbounds [17 x double], ptr %19, i64 0, i64 %58
-  store double %94, ptr %95, align 8
-  %96 = add nuw i64 %58, 1
-  %97 = icmp eq i64 %58, %46
-  br i1 %97, label %51, label %57
+84:
+  %85 = phi i64 [ %96, %84 ], [ 0, %80 ]
+  %86 = phi double [ %95, %84 ], [ 0.000000e+00, %80 ]
+  %87 = getelementptr inbounds double, ptr %83, i64 %85
+  %88 = load double, ptr %87, align 8
+  %89 = getelementptr inbounds double, ptr %44, i64 %85
+  %90 = load double, ptr %89, align 8
+  %91 = fcmp contract olt double %90, 0.000000e+00
+  %92 = fneg contract double %90
+  %93 = select contract i1 %91, double %92, double %90
+  %94 = fmul contract double %88, %93
+  %95 = fadd contract double %86, %94
+  %96 = add nuw nsw i64 %85, 1
+  %97 = icmp eq i64 %96, %46
+  br i1 %97, label %98, label %84
 
 98:
-  %99 = phi i64 [ 0, %54 ], [ %137, %134 ]
-  %100 = mul nsw i64 %99, %46
-  %101 = getelementptr inbounds double, ptr %56, i64 %100
-  br i1 %55, label %104, label %102
+  %99 = phi double [ 0.000000e+00, %80 ], [ %95, %84 ]
+  %100 = getelementptr inbounds double, ptr %18, i64 %81
+  store double %99, ptr %100, align 8
+  %101 = add nuw nsw i64 %81, 1
+  %102 = icmp eq i64 %101, %52
+  br i1 %102, label %103, label %80
 
-102:
-  %103 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %99
-  store double 0.000000e+00, ptr %103, align 8
-  br label %134
+103:
+  br i1 %47, label %107, label %104
 
 104:
-  %105 = phi i64 [ %116, %104 ], [ 0, %98 ]
-  %106 = phi double [ %115, %104 ], [ 0.000000e+00, %98 ]
-  %107 = getelementptr inbounds double, ptr %101, i64 %105
-  %108 = load double, ptr %107, align 8
-  %109 = getelementptr inbounds double, ptr %44, i64 %105
-  %110 = load double, ptr %109, align 8
-  %111 = fcmp contract olt double %110, 0.000000e+00
-  %112 = fneg contract double %110
-  %113 = select contract i1 %111, double %112, double %110
-  %114 = fmul contract double %108, %113
-  %115 = fadd contract double %106, %114
-  %116 = add nuw nsw i64 %105, 1
-  %117 = icmp eq i64 %116, %46
-  br i1 %117, label %118, label %104
+  %105 = icmp eq i64 %46, 0
+  %106 = load ptr, ptr %19, align 8
+  br label %111
 
-118:
-  %119 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %99
-  store double %115, ptr %119, align 8
-  br label %120
+107:
+  br i1 %53, label %108, label %157
 
-120:
-  %121 = phi i64 [ %132, %120 ], [ 0, %118 ]
-  %122 = phi double [ %131, %120 ], [ 0.000000e+00, %118 ]
-  %123 = getelementptr inbounds double, ptr %101, i64 %121
-  %124 = load double, ptr %123, align 8
-  %125 = getelementptr inbounds double, ptr %45, i64 %121
-  %126 = load double, ptr %125, align 8
-  %127 = fcmp contract olt double %126, 0.000000e+00
-  %128 = fneg contract double %126
-  %129 = select contract i1 %127, double %128, double %126
-  %130 = fmul contract double %124, %129
-  %131 = fadd contract double %122, %130
-  %132 = add nuw nsw i64 %121, 1
-  %133 = icmp eq i64 %132, %46
-  br i1 %133, label %134, label %120
+108:
+  %109 = icmp sgt i64 %46, 0
+  %110 = load ptr, ptr %21, align 8
+  br label %134
+
+111:
+  %112 = phi i64 [ 0, %104 ], [ %132, %129 ]
+  %113 = mul nuw nsw i64 %112, %46
+  %114 = getelementptr inbounds double, ptr %106, i64 %113
+  br i1 %105, label %129, label %115
+
+115:
+  %116 = phi i64 [ %127, %115 ], [ 0, %111 ]
+  %117 = phi double [ %126, %115 ], [ 0.000000e+00, %111 ]
+  %118 = getelementptr inbounds double, ptr %114, i64 %116
+  %119 = load double, ptr %118, align 8
+  %120 = getelementptr inbounds double, ptr %45, i64 %116
+  %121 = load double, ptr %120, align 8
+  %122 = fcmp contract olt double %121, 0.000000e+00
+  %123 = fneg contract double %121
+  %124 = select contract i1 %122, double %123, double %121
+  %125 = fmul contract double %119, %124
+  %126 = fadd contract double %117, %125
+  %127 = add nuw nsw i64 %116, 1
+  %128 = icmp eq i64 %127, %46
+  br i1 %128, label %129, label %115
+
+129:
+  %130 = phi double [ 0.000000e+00, %111 ], [ %126, %115 ]
+  %131 = getelementptr inbounds double, ptr %22, i64 %112
+  store double %130, ptr %131, align 8
+  %132 = add nuw i64 %112, 1
+  %133 = icmp eq i64 %112, %46
+  br i1 %133, label %107, label %111
 
 134:
-  %135 = phi double [ 0.000000e+00, %102 ], [ %131, %120 ]
-  %136 = getelementptr inbounds [136 x double], ptr %23, i64 0, i64 %99
-  store double %135, ptr %136, align 8
-  %137 = add nuw nsw i64 %99, 1
-  %138 = icmp eq i64 %137, %52
-  br i1 %138, label %139, label %98
+  %135 = phi i64 [ 0, %108 ], [ %155, %152 ]
+  %136 = mul nsw i64 %135, %46
+  %137 = getelementptr inbounds double, ptr %110, i64 %136
+  br i1 %109, label %138, label %152
 
-139:
-  br i1 %47, label %140, label %142
+138:
+  %139 = phi i64 [ %150, %138 ], [ 0, %134 ]
+  %140 = phi double [ %149, %138 ], [ 0.000000e+00, %134 ]
+  %141 = getelementptr inbounds double, ptr %137, i64 %139
+  %142 = load double, ptr %141, align 8
+  %143 = getelementptr inbounds double, ptr %45, i64 %139
+  %144 = load double, ptr %143, align 8
+  %145 = fcmp contract olt double %144, 0.000000e+00
+  %146 = fneg contract double %144
+  %147 = select contract i1 %145, double %146, double %144
+  %148 = fmul contract double %142, %147
+  %149 = fadd contract double %140, %148
+  %150 = add nuw nsw i64 %139, 1
+  %151 = icmp eq i64 %150, %46
+  br i1 %151, label %152, label %138
 
-140:
-  %141 = phi double [ 0.000000e+00, %139 ], [ %148, %142 ]
-  br i1 %53, label %151, label %160
+152:
+  %153 = phi double [ 0.000000e+00, %134 ], [ %149, %138 ]
+  %154 = getelementptr inbounds double, ptr %23, i64 %135
+  store double %153, ptr %154, align 8
+  %155 = add nuw nsw i64 %135, 1
+  %156 = icmp eq i64 %155, %52
+  br i1 %156, label %157, label %134
 
-142:
-  %143 = phi i64 [ %149, %142 ], [ 0, %139 ]
-  %144 = phi double [ %148, %142 ], [ 0.000000e+00, %139 ]
-  %145 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %143
-  %146 = load double, ptr %145, align 8
-  %147 = fcmp contract ogt double %146, %144
-  %148 = select i1 %147, double %146, double %144
-  %149 = add nuw i64 %143, 1
-  %150 = icmp eq i64 %143, %46
-  br i1 %150, label %140, label %142
+157:
+  br i1 %47, label %158, label %160
 
-151:
-  %152 = phi i64 [ %158, %151 ], [ 0, %140 ]
-  %153 = phi double [ %157, %151 ], [ %141, %140 ]
-  %154 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %152
-  %155 = load double, ptr %154, align 8
-  %156 = fcmp contract ogt double %155, %153
-  %157 = select i1 %156, double %155, double %153
-  %158 = add nuw nsw i64 %152, 1
-  %159 = icmp eq i64 %158, %52
-  br i1 %159, label %160, label %151
+158:
+  %159 = phi double [ 0.000000e+00, %157 ], [ %166, %160 ]
+  br i1 %53, label %169, label %178
 
 160:
-  %161 = phi double [ %141, %140 ], [ %157, %151 ]
-  call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %12)
-  br label %178
+  %161 = phi i64 [ %167, %160 ], [ 0, %157 ]
+  %162 = phi double [ %166, %160 ], [ 0.000000e+00, %157 ]
+  %163 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %161
+  %164 = load double, ptr %163, align 8
+  %165 = fcmp contract ogt double %164, %162
+  %166 = select i1 %165, double %164, double %162
+  %167 = add nuw i64 %161, 1
+  %168 = icmp eq i64 %161, %46
+  br i1 %168, label %158, label %160
 
-162:
-  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %13)
-  %163 = icmp sgt i64 %46, 0
-  %164 = load ptr, ptr %25, align 8
-  %165 = load ptr, ptr %26, align 8
-  %166 = load i64, ptr %27, align 8
-  %167 = icmp sgt i64 %166, 0
-  %168 = load ptr, ptr %28, align 8
-  %169 = load ptr, ptr %29, align 8
-  %170 = load ptr, ptr %30, align 8
-  %171 = load ptr, ptr %31, align 8
-  %172 = load ptr, ptr %32, align 8
-  %173 = load ptr, ptr %33, align 8
-  %174 = load ptr, ptr %34, align 8
-  %175 = load ptr, ptr %36, align 8
-  %176 = load ptr, ptr %37, align 8
-  %177 = load ptr, ptr %38, align 8
-  br label %188
+169:
+  %170 = phi i64 [ %176, %169 ], [ 0, %158 ]
+  %171 = phi double [ %175, %169 ], [ %159, %158 ]
+  %172 = getelementptr inbounds [136 x double], ptr %18, i64 0, i64 %170
+  %173 = load double, ptr %172, align 8
+  %174 = fcmp contract ogt double %173, %171
+  %175 = select i1 %174, double %173, double %171
+  %176 = add nuw nsw i64 %170, 1
+  %177 = icmp eq i64 %176, %52
+  br i1 %177, label %178, label %169
 
 178:
-  %179 = phi i64 [ 0, %160 ], [ %184, %178 ]
-  %180 = uitofp nneg i64 %179 to double
-  %181 = fmul contract double %180, 2.000000e+00
-  %182 = fadd contract double %181, 1.000000e+00
-  %183 = fmul contract double %182, 6.250000e-02
-  %184 = add nuw nsw i64 %179, 1
-  %185 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %179
-  store double %183, ptr %185, align 16
-  %186 = getelementptr inbounds i8, ptr %185, i64 8
-  store double 6.250000e-02, ptr %186, align 8
-  %187 = icmp eq i64 %184, 8
-  br i1 %187, label %162, label %178
+  %179 = phi double [ %159, %158 ], [ %175, %169 ]
+  call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %12)
+  br label %196
 
-188:
-  %189 = phi i64 [ 8, %162 ], [ %1316, %1315 ]
-  %190 = phi <8 x double> [ undef, %162 ], [ %1279, %1315 ]
-  %191 = phi <8 x double> [ undef, %162 ], [ %1282, %1315 ]
+180:
+  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %13)
+  %181 = icmp sgt i64 %46, 0
+  %182 = load ptr, ptr %25, align 8
+  %183 = load ptr, ptr %26, align 8
+  %184 = load i64, ptr %27, align 8
+  %185 = icmp sgt i64 %184, 0
+  %186 = load ptr, ptr %28, align 8
+  %187 = load ptr, ptr %29, align 8
+  %188 = load ptr, ptr %30, align 8
+  %189 = load ptr, ptr %31, align 8
+  %190 = load ptr, ptr %32, align 8
+  %191 = load ptr, ptr %33, align 8
+  %192 = load ptr, ptr %34, align 8
+  %193 = load ptr, ptr %36, align 8
+  %194 = load ptr, ptr %37, align 8
+  %195 = load ptr, ptr %38, align 8
+  br label %206
+
+196:
+  %197 = phi i64 [ 0, %178 ], [ %202, %196 ]
+  %198 = uitofp nneg i64 %197 to double
+  %199 = fmul contract double %198, 2.000000e+00
+  %200 = fadd contract double %199, 1.000000e+00
+  %201 = fmul contract double %200, 6.250000e-02
+  %202 = add nuw nsw i64 %197, 1
+  %203 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %197
+  store double %201, ptr %203, align 16
+  %204 = getelementptr inbounds i8, ptr %203, i64 8
+  store double 6.250000e-02, ptr %204, align 8
+  %205 = icmp eq i64 %202, 8
+  br i1 %205, label %180, label %196
+
+206:
+  %207 = phi i64 [ 8, %180 ], [ %1334, %1333 ]
+  %208 = phi <8 x double> [ undef, %180 ], [ %1297, %1333 ]
+  %209 = phi <8 x double> [ undef, %180 ], [ %1300, %1333 ]
   call void @llvm.lifetime.start.p0(i64 128, ptr nonnull %14)
-  br label %1268
-
-192:
-  %193 = fmul contract <8 x double> %1279, zeroinitializer
-  br label %194
-
-194:
-  %195 = phi i64 [ 0, %192 ], [ %203, %194 ]
-  %196 = and i64 %195, 3
-  %197 = icmp eq i64 %196, 0
-  %198 = uitofp i1 %197 to double
-  %199 = insertelement <8 x double> poison, double %198, i64 0
-  %200 = shufflevector <8 x double> %199, <8 x double> poison, <8 x i32> zeroinitializer
-  %201 = fadd contract <8 x double> %193, %200
-  %202 = getelementptr inbounds [9 x <8 x double>], ptr %13, i64 0, i64 %195
-  store <8 x double> %201, ptr %202, align 64
-  %203 = add nuw nsw i64 %195, 1
-  %204 = icmp eq i64 %203, 9
-  br i1 %204, label %210, label %194
-
-205:
-  %206 = tail call i64 @llvm.smin.i64(i64 %189, i64 8)
-  %207 = sub nsw i64 %189, %206
-  br i1 %163, label %215, label %208
-
-208:
-  %209 = fmul contract <8 x double> %1282, zeroinitializer
-  br label %755
+  br label %1286
 
 210:
-  %211 = phi i64 [ %213, %210 ], [ 0, %194 ]
-  %212 = getelementptr inbounds [3 x <8 x double>], ptr %24, i64 0, i64 %211
-  store <8 x double> %193, ptr %212, align 64
-  %213 = add nuw nsw i64 %211, 1
-  %214 = icmp eq i64 %213, 3
-  br i1 %214, label %205, label %210
+  %211 = fmul contract <8 x double> %1297, zeroinitializer
+  br label %212
 
-215:
-  %216 = phi i64 [ %272, %425 ], [ 0, %205 ]
-  %217 = getelementptr inbounds %struct.Joint.3, ptr %164, i64 %216
-  %218 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %216
-  %219 = getelementptr inbounds double, ptr %43, i64 %216
-  %220 = load double, ptr %219, align 8
-  %221 = getelementptr inbounds double, ptr %44, i64 %216
-  %222 = load double, ptr %221, align 8
-  %223 = insertelement <8 x double> poison, double %222, i64 0
-  %224 = shufflevector <8 x double> %223, <8 x double> poison, <8 x i32> zeroinitializer
-  %225 = getelementptr inbounds i8, ptr %217, i64 72
-  %226 = load double, ptr %225, align 8
-  %227 = getelementptr inbounds i8, ptr %217, i64 80
-  %228 = load double, ptr %227, align 8
-  %229 = getelementptr inbounds i8, ptr %217, i64 88
-  %230 = load double, ptr %229, align 8
-  %231 = getelementptr inbounds i8, ptr %218, i64 576
-  %232 = load <8 x double>, ptr %231, align 64
-  %233 = load <8 x double>, ptr %218, align 64
-  %234 = insertelement <8 x double> poison, double %226, i64 0
-  %235 = shufflevector <8 x double> %234, <8 x double> poison, <8 x i32> zeroinitializer
-  %236 = getelementptr inbounds i8, ptr %218, i64 64
-  %237 = load <8 x double>, ptr %236, align 64
-  %238 = insertelement <8 x double> poison, double %228, i64 0
-  %239 = shufflevector <8 x double> %238, <8 x double> poison, <8 x i32> zeroinitializer
-  %240 = getelementptr inbounds i8, ptr %218, i64 128
-  %241 = load <8 x double>, ptr %240, align 64
-  %242 = insertelement <8 x double> poison, double %230, i64 0
-  %243 = shufflevector <8 x double> %242, <8 x double> poison, <8 x i32> zeroinitializer
-  %244 = getelementptr inbounds i8, ptr %218, i64 640
-  %245 = load <8 x double>, ptr %244, align 64
-  %246 = getelementptr inbounds i8, ptr %218, i64 192
-  %247 = load <8 x double>, ptr %246, align 64
-  %248 = getelementptr inbounds i8, ptr %218, i64 256
-  %249 = load <8 x double>, ptr %248, align 64
-  %250 = getelementptr inbounds i8, ptr %218, i64 320
-  %251 = load <8 x double>, ptr %250, align 64
-  %252 = getelementptr inbounds i8, ptr %218, i64 704
-  %253 = load <8 x double>, ptr %252, align 64
-  %254 = getelementptr inbounds i8, ptr %218, i64 384
+212:
+  %213 = phi i64 [ 0, %210 ], [ %221, %212 ]
+  %214 = and i64 %213, 3
+  %215 = icmp eq i64 %214, 0
+  %216 = uitofp i1 %215 to double
+  %217 = insertelement <8 x double> poison, double %216, i64 0
+  %218 = shufflevector <8 x double> %217, <8 x double> poison, <8 x i32> zeroinitializer
+  %219 = fadd contract <8 x double> %211, %218
+  %220 = getelementptr inbounds [9 x <8 x double>], ptr %13, i64 0, i64 %213
+  store <8 x double> %219, ptr %220, align 64
+  %221 = add nuw nsw i64 %213, 1
+  %222 = icmp eq i64 %221, 9
+  br i1 %222, label %228, label %212
+
+223:
+  %224 = tail call i64 @llvm.smin.i64(i64 %207, i64 8)
+  %225 = sub nsw i64 %207, %224
+  br i1 %181, label %233, label %226
+
+226:
+  %227 = fmul contract <8 x double> %1300, zeroinitializer
+  br label %773
+
+228:
+  %229 = phi i64 [ %231, %228 ], [ 0, %212 ]
+  %230 = getelementptr inbounds [3 x <8 x double>], ptr %24, i64 0, i64 %229
+  store <8 x double> %211, ptr %230, align 64
+  %231 = add nuw nsw i64 %229, 1
+  %232 = icmp eq i64 %231, 3
+  br i1 %232, label %223, label %228
+
+233:
+  %234 = phi i64 [ %290, %443 ], [ 0, %223 ]
+  %235 = getelementptr inbounds %struct.Joint.3, ptr %182, i64 %234
+  %236 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %234
+  %237 = getelementptr inbounds double, ptr %43, i64 %234
+  %238 = load double, ptr %237, align 8
+  %239 = getelementptr inbounds double, ptr %44, i64 %234
+  %240 = load double, ptr %239, align 8
+  %241 = insertelement <8 x double> poison, double %240, i64 0
+  %242 = shufflevector <8 x double> %241, <8 x double> poison, <8 x i32> zeroinitializer
+  %243 = getelementptr inbounds i8, ptr %235, i64 72
+  %244 = load double, ptr %243, align 8
+  %245 = getelementptr inbounds i8, ptr %235, i64 80
+  %246 = load double, ptr %245, align 8
+  %247 = getelementptr inbounds i8, ptr %235, i64 88
+  %248 = load double, ptr %247, align 8
+  %249 = getelementptr inbounds i8, ptr %236, i64 576
+  %250 = load <8 x double>, ptr %249, align 64
+  %251 = load <8 x double>, ptr %236, align 64
+  %252 = insertelement <8 x double> poison, double %244, i64 0
+  %253 = shufflevector <8 x double> %252, <8 x double> poison, <8 x i32> zeroinitializer
+  %254 = getelementptr inbounds i8, ptr %236, i64 64
   %255 = load <8 x double>, ptr %254, align 64
-  %256 = getelementptr inbounds i8, ptr %218, i64 448
-  %257 = load <8 x double>, ptr %256, align 64
-  %258 = getelementptr inbounds i8, ptr %218, i64 512
+  %256 = insertelement <8 x double> poison, double %246, i64 0
+  %257 = shufflevector <8 x double> %256, <8 x double> poison, <8 x i32> zeroinitializer
+  %258 = getelementptr inbounds i8, ptr %236, i64 128
   %259 = load <8 x double>, ptr %258, align 64
-  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %10)
-  br label %260
-
-260:
-  %261 = phi i64 [ 0, %215 ], [ %303, %302 ]
-  %262 = mul nuw nsw i64 %261, 3
-  %263 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %262
-  %264 = load <8 x double>, ptr %263, align 64
-  %265 = add nuw nsw i64 %262, 1
-  %266 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %265
+  %260 = insertelement <8 x double> poison, double %248, i64 0
+  %261 = shufflevector <8 x double> %260, <8 x double> poison, <8 x i32> zeroinitializer
+  %262 = getelementptr inbounds i8, ptr %236, i64 640
+  %263 = load <8 x double>, ptr %262, align 64
+  %264 = getelementptr inbounds i8, ptr %236, i64 192
+  %265 = load <8 x double>, ptr %264, align 64
+  %266 = getelementptr inbounds i8, ptr %236, i64 256
   %267 = load <8 x double>, ptr %266, align 64
-  %268 = add nuw nsw i64 %262, 2
-  %269 = getelementptr inbounds [9 x <8 x double>], ptr %218, i64 0, i64 %268
-  %270 = load <8 x double>, ptr %269, align 64
-  br label %305
+  %268 = getelementptr inbounds i8, ptr %236, i64 320
+  %269 = load <8 x double>, ptr %268, align 64
+  %270 = getelementptr inbounds i8, ptr %236, i64 704
+  %271 = load <8 x double>, ptr %270, align 64
+  %272 = getelementptr inbounds i8, ptr %236, i64 384
+  %273 = load <8 x double>, ptr %272, align 64
+  %274 = getelementptr inbounds i8, ptr %236, i64 448
+  %275 = load <8 x double>, ptr %274, align 64
+  %276 = getelementptr inbounds i8, ptr %236, i64 512
+  %277 = load <8 x double>, ptr %276, align 64
+  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %10)
+  br label %278
 
-271:
-  %272 = add nuw nsw i64 %216, 1
-  %273 = insertelement <8 x double> poison, double %220, i64 0
-  %274 = fmul contract <8 x double> %1279, %224
-  %275 = fmul contract <8 x double> %235, %233
-  %276 = fmul contract <8 x double> %239, %237
-  %277 = fmul contract <8 x double> %243, %241
-  %278 = fmul contract <8 x double> %235, %247
-  %279 = fmul contract <8 x double> %239, %249
-  %280 = fmul contract <8 x double> %243, %251
-  %281 = fmul contract <8 x double> %235, %255
-  %282 = fmul contract <8 x double> %239, %257
-  %283 = fmul contract <8 x double> %243, %259
-  %284 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %272
-  %285 = shufflevector <8 x double> %273, <8 x double> poison, <8 x i32> zeroinitializer
-  %286 = fadd contract <8 x double> %285, %274
-  %287 = fadd contract <8 x double> %232, %275
-  %288 = fadd contract <8 x double> %287, %276
-  %289 = fadd contract <8 x double> %288, %277
-  %290 = fadd contract <8 x double> %245, %278
-  %291 = fadd contract <8 x double> %290, %279
-  %292 = fadd contract <8 x double> %291, %280
-  %293 = fadd contract <8 x double> %253, %281
-  %294 = fadd contract <8 x double> %293, %282
-  %295 = fadd contract <8 x double> %294, %283
-  %296 = getelementptr inbounds i8, ptr %284, i64 576
-  store <8 x double> %289, ptr %296, align 64
-  %297 = getelementptr inbounds i8, ptr %284, i64 640
-  store <8 x double> %292, ptr %297, align 64
-  %298 = getelementptr inbounds i8, ptr %284, i64 704
-  store <8 x double> %295, ptr %298, align 64
-  %299 = getelementptr inbounds i8, ptr %217, i64 96
-  %300 = load double, ptr %299, align 8
-  %301 = fcmp contract une double %300, 0.000000e+00
-  br i1 %301, label %330, label %349
+278:
+  %279 = phi i64 [ 0, %233 ], [ %321, %320 ]
+  %280 = mul nuw nsw i64 %279, 3
+  %281 = getelementptr inbounds [9 x <8 x double>], ptr %236, i64 0, i64 %280
+  %282 = load <8 x double>, ptr %281, align 64
+  %283 = add nuw nsw i64 %280, 1
+  %284 = getelementptr inbounds [9 x <8 x double>], ptr %236, i64 0, i64 %283
+  %285 = load <8 x double>, ptr %284, align 64
+  %286 = add nuw nsw i64 %280, 2
+  %287 = getelementptr inbounds [9 x <8 x double>], ptr %236, i64 0, i64 %286
+  %288 = load <8 x double>, ptr %287, align 64
+  br label %323
 
-302:
-  %303 = add nuw nsw i64 %261, 1
-  %304 = icmp eq i64 %303, 3
-  br i1 %304, label %271, label %260
+289:
+  %290 = add nuw nsw i64 %234, 1
+  %291 = insertelement <8 x double> poison, double %238, i64 0
+  %292 = fmul contract <8 x double> %1297, %242
+  %293 = fmul contract <8 x double> %253, %251
+  %294 = fmul contract <8 x double> %257, %255
+  %295 = fmul contract <8 x double> %261, %259
+  %296 = fmul contract <8 x double> %253, %265
+  %297 = fmul contract <8 x double> %257, %267
+  %298 = fmul contract <8 x double> %261, %269
+  %299 = fmul contract <8 x double> %253, %273
+  %300 = fmul contract <8 x double> %257, %275
+  %301 = fmul contract <8 x double> %261, %277
+  %302 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %290
+  %303 = shufflevector <8 x double> %291, <8 x double> poison, <8 x i32> zeroinitializer
+  %304 = fadd contract <8 x double> %303, %292
+  %305 = fadd contract <8 x double> %250, %293
+  %306 = fadd contract <8 x double> %305, %294
+  %307 = fadd contract <8 x double> %306, %295
+  %308 = fadd contract <8 x double> %263, %296
+  %309 = fadd contract <8 x double> %308, %297
+  %310 = fadd contract <8 x double> %309, %298
+  %311 = fadd contract <8 x double> %271, %299
+  %312 = fadd contract <8 x double> %311, %300
+  %313 = fadd contract <8 x double> %312, %301
+  %314 = getelementptr inbounds i8, ptr %302, i64 576
+  store <8 x double> %307, ptr %314, align 64
+  %315 = getelementptr inbounds i8, ptr %302, i64 640
+  store <8 x double> %310, ptr %315, align 64
+  %316 = getelementptr inbounds i8, ptr %302, i64 704
+  store <8 x double> %313, ptr %316, align 64
+  %317 = getelementptr inbounds i8, ptr %235, i64 96
+  %318 = load double, ptr %317, align 8
+  %319 = fcmp contract une double %318, 0.000000e+00
+  br i1 %319, label %348, label %367
 
-305:
-  %306 = phi i64 [ 0, %260 ], [ %328, %305 ]
-  %307 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %306
-  %308 = load double, ptr %307, align 8
-  %309 = insertelement <8 x double> poison, double %308, i64 0
-  %310 = shufflevector <8 x double> %309, <8 x double> poison, <8 x i32> zeroinitializer
-  %311 = fmul contract <8 x double> %264, %310
-  %312 = add nuw nsw i64 %306, 3
-  %313 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %312
-  %314 = load double, ptr %313, align 8
-  %315 = insertelement <8 x double> poison, double %314, i64 0
-  %316 = shufflevector <8 x double> %315, <8 x double> poison, <8 x i32> zeroinitializer
-  %317 = fmul contract <8 x double> %267, %316
-  %318 = fadd contract <8 x double> %311, %317
-  %319 = add nuw nsw i64 %306, 6
-  %320 = getelementptr inbounds [9 x double], ptr %217, i64 0, i64 %319
-  %321 = load double, ptr %320, align 8
-  %322 = insertelement <8 x double> poison, double %321, i64 0
-  %323 = shufflevector <8 x double> %322, <8 x double> poison, <8 x i32> zeroinitializer
-  %324 = fmul contract <8 x double> %270, %323
-  %325 = fadd contract <8 x double> %318, %324
-  %326 = add nuw nsw i64 %306, %262
-  %327 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %326
-  store <8 x double> %325, ptr %327, align 64
-  %328 = add nuw nsw i64 %306, 1
-  %329 = icmp eq i64 %328, 3
-  br i1 %329, label %302, label %305
+320:
+  %321 = add nuw nsw i64 %279, 1
+  %322 = icmp eq i64 %321, 3
+  br i1 %322, label %289, label %278
 
-330:
-  %331 = phi i64 [ %335, %330 ], [ 0, %271 ]
-  %332 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %331
-  %333 = load <8 x double>, ptr %332, align 64
-  %334 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %331
-  store <8 x double> %333, ptr %334, align 64
-  %335 = add nuw nsw i64 %331, 1
-  %336 = icmp eq i64 %335, 9
-  br i1 %336, label %337, label %330
+323:
+  %324 = phi i64 [ 0, %278 ], [ %346, %323 ]
+  %325 = getelementptr inbounds [9 x double], ptr %235, i64 0, i64 %324
+  %326 = load double, ptr %325, align 8
+  %327 = insertelement <8 x double> poison, double %326, i64 0
+  %328 = shufflevector <8 x double> %327, <8 x double> poison, <8 x i32> zeroinitializer
+  %329 = fmul contract <8 x double> %282, %328
+  %330 = add nuw nsw i64 %324, 3
+  %331 = getelementptr inbounds [9 x double], ptr %235, i64 0, i64 %330
+  %332 = load double, ptr %331, align 8
+  %333 = insertelement <8 x double> poison, double %332, i64 0
+  %334 = shufflevector <8 x double> %333, <8 x double> poison, <8 x i32> zeroinitializer
+  %335 = fmul contract <8 x double> %285, %334
+  %336 = fadd contract <8 x double> %329, %335
+  %337 = add nuw nsw i64 %324, 6
+  %338 = getelementptr inbounds [9 x double], ptr %235, i64 0, i64 %337
+  %339 = load double, ptr %338, align 8
+  %340 = insertelement <8 x double> poison, double %339, i64 0
+  %341 = shufflevector <8 x double> %340, <8 x double> poison, <8 x i32> zeroinitializer
+  %342 = fmul contract <8 x double> %288, %341
+  %343 = fadd contract <8 x double> %336, %342
+  %344 = add nuw nsw i64 %324, %280
+  %345 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %344
+  store <8 x double> %343, ptr %345, align 64
+  %346 = add nuw nsw i64 %324, 1
+  %347 = icmp eq i64 %346, 3
+  br i1 %347, label %320, label %323
 
-337:
-  %338 = phi i64 [ %347, %337 ], [ 0, %330 ]
-  %339 = mul nuw nsw i64 %338, 3
-  %340 = add nuw nsw i64 %339, 2
-  %341 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %340
-  %342 = load <8 x double>, ptr %341, align 64
-  %343 = fmul contract <8 x double> %286, %342
-  %344 = getelementptr inbounds [3 x <8 x double>], ptr %296, i64 0, i64 %338
-  %345 = load <8 x double>, ptr %344, align 64
-  %346 = fadd contract <8 x double> %345, %343
-  store <8 x double> %346, ptr %344, align 64
-  %347 = add nuw nsw i64 %338, 1
-  %348 = icmp eq i64 %347, 3
-  br i1 %348, label %425, label %337
+348:
+  %349 = phi i64 [ %353, %348 ], [ 0, %289 ]
+  %350 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %349
+  %351 = load <8 x double>, ptr %350, align 64
+  %352 = getelementptr inbounds [9 x <8 x double>], ptr %302, i64 0, i64 %349
+  store <8 x double> %351, ptr %352, align 64
+  %353 = add nuw nsw i64 %349, 1
+  %354 = icmp eq i64 %353, 9
+  br i1 %354, label %355, label %348
 
-349:
-  %350 = fmul contract <8 x double> %286, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %351 = fadd contract <8 x double> %350, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %352 = fadd contract <8 x double> %351, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %353 = fmul contract <8 x double> %352, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %354 = fsub contract <8 x double> %286, %353
-  %355 = fmul contract <8 x double> %352, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %356 = fsub contract <8 x double> %354, %355
-  %357 = fmul contract <8 x double> %352, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %358 = fsub contract <8 x double> %356, %357
-  %359 = fmul contract <8 x double> %352, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %360 = fadd contract <8 x double> %359, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %361 = fadd contract <8 x double> %360, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %362 = fsub contract <8 x double> %359, %361
-  %363 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %362)
-  %364 = fmul contract <8 x double> %363, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %365 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %364
-  %366 = fmul contract <8 x double> %358, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %367 = fmul contract <8 x double> %366, %366
-  %368 = fmul contract <8 x double> %366, %367
-  %369 = fmul contract <8 x double> %367, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %370 = fadd contract <8 x double> %369, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %371 = fmul contract <8 x double> %367, %370
-  %372 = fadd contract <8 x double> %371, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %373 = fmul contract <8 x double> %367, %372
-  %374 = fadd contract <8 x double> %373, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %375 = fmul contract <8 x double> %367, %374
-  %376 = fadd contract <8 x double> %375, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %377 = fmul contract <8 x double> %367, %376
-  %378 = fadd contract <8 x double> %377, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %379 = fmul contract <8 x double> %368, %378
-  %380 = fadd contract <8 x double> %366, %379
-  %381 = fmul contract <8 x double> %367, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %382 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %381
-  %383 = fmul contract <8 x double> %367, %367
-  %384 = fmul contract <8 x double> %367, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %385 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %384
-  %386 = fmul contract <8 x double> %367, %385
-  %387 = fadd contract <8 x double> %386, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %388 = fmul contract <8 x double> %367, %387
-  %389 = fadd contract <8 x double> %388, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %390 = fmul contract <8 x double> %367, %389
-  %391 = fadd contract <8 x double> %390, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %392 = fmul contract <8 x double> %367, %391
-  %393 = fadd contract <8 x double> %392, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
-  %394 = fmul contract <8 x double> %383, %393
-  %395 = fadd contract <8 x double> %382, %394
-  %396 = fmul contract <8 x double> %365, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %397 = fmul contract <8 x double> %396, %380
-  %398 = fmul contract <8 x double> %395, %397
-  %399 = fmul contract <8 x double> %380, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %400 = fmul contract <8 x double> %380, %399
-  %401 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %400
-  %402 = fmul contract <8 x double> %365, %401
-  br label %403
+355:
+  %356 = phi i64 [ %365, %355 ], [ 0, %348 ]
+  %357 = mul nuw nsw i64 %356, 3
+  %358 = add nuw nsw i64 %357, 2
+  %359 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %358
+  %360 = load <8 x double>, ptr %359, align 64
+  %361 = fmul contract <8 x double> %304, %360
+  %362 = getelementptr inbounds [3 x <8 x double>], ptr %314, i64 0, i64 %356
+  %363 = load <8 x double>, ptr %362, align 64
+  %364 = fadd contract <8 x double> %363, %361
+  store <8 x double> %364, ptr %362, align 64
+  %365 = add nuw nsw i64 %356, 1
+  %366 = icmp eq i64 %365, 3
+  br i1 %366, label %443, label %355
 
-403:
-  %404 = phi i64 [ 0, %349 ], [ %423, %403 ]
-  %405 = mul nuw nsw i64 %404, 3
-  %406 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %405
-  %407 = load <8 x double>, ptr %406, align 64
-  %408 = fmul contract <8 x double> %402, %407
-  %409 = add nuw nsw i64 %405, 1
-  %410 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %409
-  %411 = load <8 x double>, ptr %410, align 64
-  %412 = fmul contract <8 x double> %398, %411
-  %413 = fadd contract <8 x double> %408, %412
-  %414 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %405
-  store <8 x double> %413, ptr %414, align 64
-  %415 = fmul contract <8 x double> %402, %411
-  %416 = fmul contract <8 x double> %398, %407
-  %417 = fsub contract <8 x double> %415, %416
-  %418 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %409
-  store <8 x double> %417, ptr %418, align 64
-  %419 = add nuw nsw i64 %405, 2
-  %420 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %419
-  %421 = load <8 x double>, ptr %420, align 64
-  %422 = getelementptr inbounds [9 x <8 x double>], ptr %284, i64 0, i64 %419
-  store <8 x double> %421, ptr %422, align 64
-  %423 = add nuw nsw i64 %404, 1
-  %424 = icmp eq i64 %423, 3
-  br i1 %424, label %425, label %403
+367:
+  %368 = fmul contract <8 x double> %304, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %369 = fadd contract <8 x double> %368, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %370 = fadd contract <8 x double> %369, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %371 = fmul contract <8 x double> %370, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %372 = fsub contract <8 x double> %304, %371
+  %373 = fmul contract <8 x double> %370, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %374 = fsub contract <8 x double> %372, %373
+  %375 = fmul contract <8 x double> %370, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %376 = fsub contract <8 x double> %374, %375
+  %377 = fmul contract <8 x double> %370, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %378 = fadd contract <8 x double> %377, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %379 = fadd contract <8 x double> %378, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %380 = fsub contract <8 x double> %377, %379
+  %381 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %380)
+  %382 = fmul contract <8 x double> %381, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %383 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %382
+  %384 = fmul contract <8 x double> %376, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %385 = fmul contract <8 x double> %384, %384
+  %386 = fmul contract <8 x double> %384, %385
+  %387 = fmul contract <8 x double> %385, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %388 = fadd contract <8 x double> %387, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %389 = fmul contract <8 x double> %385, %388
+  %390 = fadd contract <8 x double> %389, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %391 = fmul contract <8 x double> %385, %390
+  %392 = fadd contract <8 x double> %391, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %393 = fmul contract <8 x double> %385, %392
+  %394 = fadd contract <8 x double> %393, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %395 = fmul contract <8 x double> %385, %394
+  %396 = fadd contract <8 x double> %395, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %397 = fmul contract <8 x double> %386, %396
+  %398 = fadd contract <8 x double> %384, %397
+  %399 = fmul contract <8 x double> %385, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %400 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %399
+  %401 = fmul contract <8 x double> %385, %385
+  %402 = fmul contract <8 x double> %385, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %403 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %402
+  %404 = fmul contract <8 x double> %385, %403
+  %405 = fadd contract <8 x double> %404, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %406 = fmul contract <8 x double> %385, %405
+  %407 = fadd contract <8 x double> %406, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %408 = fmul contract <8 x double> %385, %407
+  %409 = fadd contract <8 x double> %408, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %410 = fmul contract <8 x double> %385, %409
+  %411 = fadd contract <8 x double> %410, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %412 = fmul contract <8 x double> %401, %411
+  %413 = fadd contract <8 x double> %400, %412
+  %414 = fmul contract <8 x double> %383, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %415 = fmul contract <8 x double> %414, %398
+  %416 = fmul contract <8 x double> %413, %415
+  %417 = fmul contract <8 x double> %398, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %418 = fmul contract <8 x double> %398, %417
+  %419 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %418
+  %420 = fmul contract <8 x double> %383, %419
+  br label %421
 
-425:
+421:
+  %422 = phi i64 [ 0, %367 ], [ %441, %421 ]
+  %423 = mul nuw nsw i64 %422, 3
+  %424 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %423
+  %425 = load <8 x double>, ptr %424, align 64
+  %426 = fmul contract <8 x double> %420, %425
+  %427 = add nuw nsw i64 %423, 1
+  %428 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %427
+  %429 = load <8 x double>, ptr %428, align 64
+  %430 = fmul contract <8 x double> %416, %429
+  %431 = fadd contract <8 x double> %426, %430
+  %432 = getelementptr inbounds [9 x <8 x double>], ptr %302, i64 0, i64 %423
+  store <8 x double> %431, ptr %432, align 64
+  %433 = fmul contract <8 x double> %420, %429
+  %434 = fmul contract <8 x double> %416, %425
+  %435 = fsub contract <8 x double> %433, %434
+  %436 = getelementptr inbounds [9 x <8 x double>], ptr %302, i64 0, i64 %427
+  store <8 x double> %435, ptr %436, align 64
+  %437 = add nuw nsw i64 %423, 2
+  %438 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %437
+  %439 = load <8 x double>, ptr %438, align 64
+  %440 = getelementptr inbounds [9 x <8 x double>], ptr %302, i64 0, i64 %437
+  store <8 x double> %439, ptr %440, align 64
+  %441 = add nuw nsw i64 %422, 1
+  %442 = icmp eq i64 %441, 3
+  br i1 %442, label %443, label %421
+
+443:
   call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %10)
-  %426 = icmp eq i64 %272, %46
-  br i1 %426, label %427, label %215
+  %444 = icmp eq i64 %290, %46
+  br i1 %444, label %445, label %233
 
-427:
-  %428 = fmul contract <8 x double> %1282, zeroinitializer
-  br label %429
+445:
+  %446 = fmul contract <8 x double> %1300, zeroinitializer
+  br label %447
 
-429:
-  %430 = phi <8 x i64> [ %752, %751 ], [ zeroinitializer, %427 ]
-  %431 = phi i64 [ %753, %751 ], [ 1, %427 ]
-  %432 = getelementptr inbounds %struct.Sphere.5, ptr %165, i64 %431
-  %433 = getelementptr inbounds i8, ptr %432, i64 24
-  %434 = load double, ptr %433, align 8
-  %435 = fcmp contract olt double %434, 0.000000e+00
-  br i1 %435, label %751, label %436
+447:
+  %448 = phi <8 x i64> [ %770, %769 ], [ zeroinitializer, %445 ]
+  %449 = phi i64 [ %771, %769 ], [ 1, %445 ]
+  %450 = getelementptr inbounds %struct.Sphere.5, ptr %183, i64 %449
+  %451 = getelementptr inbounds i8, ptr %450, i64 24
+  %452 = load double, ptr %451, align 8
+  %453 = fcmp contract olt double %452, 0.000000e+00
+  br i1 %453, label %769, label %454
 
-436:
-  %437 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %431
-  %438 = load double, ptr %432, align 8
-  %439 = getelementptr inbounds i8, ptr %432, i64 8
-  %440 = load double, ptr %439, align 8
-  %441 = getelementptr inbounds i8, ptr %432, i64 16
-  %442 = load double, ptr %441, align 8
-  %443 = getelementptr inbounds i8, ptr %437, i64 576
-  %444 = load <8 x double>, ptr %443, align 64
-  %445 = load <8 x double>, ptr %437, align 64
-  %446 = insertelement <8 x double> poison, double %438, i64 0
-  %447 = shufflevector <8 x double> %446, <8 x double> poison, <8 x i32> zeroinitializer
-  %448 = fmul contract <8 x double> %447, %445
-  %449 = fadd contract <8 x double> %444, %448
-  %450 = getelementptr inbounds i8, ptr %437, i64 64
-  %451 = load <8 x double>, ptr %450, align 64
-  %452 = insertelement <8 x double> poison, double %440, i64 0
-  %453 = shufflevector <8 x double> %452, <8 x double> poison, <8 x i32> zeroinitializer
-  %454 = fmul contract <8 x double> %453, %451
-  %455 = fadd contract <8 x double> %449, %454
-  %456 = getelementptr inbounds i8, ptr %437, i64 128
-  %457 = load <8 x double>, ptr %456, align 64
-  %458 = insertelement <8 x double> poison, double %442, i64 0
-  %459 = shufflevector <8 x double> %458, <8 x double> poison, <8 x i32> zeroinitializer
-  %460 = fmul contract <8 x double> %459, %457
-  %461 = fadd contract <8 x double> %455, %460
-  %462 = getelementptr inbounds i8, ptr %437, i64 640
-  %463 = load <8 x double>, ptr %462, align 64
-  %464 = getelementptr inbounds i8, ptr %437, i64 192
-  %465 = load <8 x double>, ptr %464, align 64
-  %466 = fmul contract <8 x double> %447, %465
-  %467 = fadd contract <8 x double> %463, %466
-  %468 = getelementptr inbounds i8, ptr %437, i64 256
+454:
+  %455 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %449
+  %456 = load double, ptr %450, align 8
+  %457 = getelementptr inbounds i8, ptr %450, i64 8
+  %458 = load double, ptr %457, align 8
+  %459 = getelementptr inbounds i8, ptr %450, i64 16
+  %460 = load double, ptr %459, align 8
+  %461 = getelementptr inbounds i8, ptr %455, i64 576
+  %462 = load <8 x double>, ptr %461, align 64
+  %463 = load <8 x double>, ptr %455, align 64
+  %464 = insertelement <8 x double> poison, double %456, i64 0
+  %465 = shufflevector <8 x double> %464, <8 x double> poison, <8 x i32> zeroinitializer
+  %466 = fmul contract <8 x double> %465, %463
+  %467 = fadd contract <8 x double> %462, %466
+  %468 = getelementptr inbounds i8, ptr %455, i64 64
   %469 = load <8 x double>, ptr %468, align 64
-  %470 = fmul contract <8 x double> %453, %469
-  %471 = fadd contract <8 x double> %467, %470
-  %472 = getelementptr inbounds i8, ptr %437, i64 320
-  %473 = load <8 x double>, ptr %472, align 64
-  %474 = fmul contract <8 x double> %459, %473
-  %475 = fadd contract <8 x double> %471, %474
-  %476 = getelementptr inbounds i8, ptr %437, i64 704
-  %477 = load <8 x double>, ptr %476, align 64
-  %478 = getelementptr inbounds i8, ptr %437, i64 384
-  %479 = load <8 x double>, ptr %478, align 64
-  %480 = fmul contract <8 x double> %447, %479
-  %481 = fadd contract <8 x double> %477, %480
-  %482 = getelementptr inbounds i8, ptr %437, i64 448
+  %470 = insertelement <8 x double> poison, double %458, i64 0
+  %471 = shufflevector <8 x double> %470, <8 x double> poison, <8 x i32> zeroinitializer
+  %472 = fmul contract <8 x double> %471, %469
+  %473 = fadd contract <8 x double> %467, %472
+  %474 = getelementptr inbounds i8, ptr %455, i64 128
+  %475 = load <8 x double>, ptr %474, align 64
+  %476 = insertelement <8 x double> poison, double %460, i64 0
+  %477 = shufflevector <8 x double> %476, <8 x double> poison, <8 x i32> zeroinitializer
+  %478 = fmul contract <8 x double> %477, %475
+  %479 = fadd contract <8 x double> %473, %478
+  %480 = getelementptr inbounds i8, ptr %455, i64 640
+  %481 = load <8 x double>, ptr %480, align 64
+  %482 = getelementptr inbounds i8, ptr %455, i64 192
   %483 = load <8 x double>, ptr %482, align 64
-  %484 = fmul contract <8 x double> %453, %483
+  %484 = fmul contract <8 x double> %465, %483
   %485 = fadd contract <8 x double> %481, %484
-  %486 = getelementptr inbounds i8, ptr %437, i64 512
+  %486 = getelementptr inbounds i8, ptr %455, i64 256
   %487 = load <8 x double>, ptr %486, align 64
-  %488 = fmul contract <8 x double> %459, %487
+  %488 = fmul contract <8 x double> %471, %487
   %489 = fadd contract <8 x double> %485, %488
-  %490 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %431
-  %491 = load double, ptr %490, align 8
-  %492 = insertelement <8 x double> poison, double %491, i64 0
-  %493 = shufflevector <8 x double> %492, <8 x double> poison, <8 x i32> zeroinitializer
-  %494 = fmul contract <8 x double> %1282, %493
-  %495 = getelementptr inbounds [17 x double], ptr %19, i64 0, i64 %431
-  %496 = load double, ptr %495, align 8
-  %497 = insertelement <8 x double> poison, double %496, i64 0
-  %498 = shufflevector <8 x double> %497, <8 x double> poison, <8 x i32> zeroinitializer
-  %499 = fadd contract <8 x double> %494, %498
-  br i1 %167, label %500, label %751
+  %490 = getelementptr inbounds i8, ptr %455, i64 320
+  %491 = load <8 x double>, ptr %490, align 64
+  %492 = fmul contract <8 x double> %477, %491
+  %493 = fadd contract <8 x double> %489, %492
+  %494 = getelementptr inbounds i8, ptr %455, i64 704
+  %495 = load <8 x double>, ptr %494, align 64
+  %496 = getelementptr inbounds i8, ptr %455, i64 384
+  %497 = load <8 x double>, ptr %496, align 64
+  %498 = fmul contract <8 x double> %465, %497
+  %499 = fadd contract <8 x double> %495, %498
+  %500 = getelementptr inbounds i8, ptr %455, i64 448
+  %501 = load <8 x double>, ptr %500, align 64
+  %502 = fmul contract <8 x double> %471, %501
+  %503 = fadd contract <8 x double> %499, %502
+  %504 = getelementptr inbounds i8, ptr %455, i64 512
+  %505 = load <8 x double>, ptr %504, align 64
+  %506 = fmul contract <8 x double> %477, %505
+  %507 = fadd contract <8 x double> %503, %506
+  %508 = getelementptr inbounds [17 x double], ptr %11, i64 0, i64 %449
+  %509 = load double, ptr %508, align 8
+  %510 = insertelement <8 x double> poison, double %509, i64 0
+  %511 = shufflevector <8 x double> %510, <8 x double> poison, <8 x i32> zeroinitializer
+  %512 = fmul contract <8 x double> %1300, %511
+  %513 = getelementptr inbounds [17 x double], ptr %22, i64 0, i64 %449
+  %514 = load double, ptr %513, align 8
+  %515 = insertelement <8 x double> poison, double %514, i64 0
+  %516 = shufflevector <8 x double> %515, <8 x double> poison, <8 x i32> zeroinitializer
+  %517 = fadd contract <8 x double> %512, %516
+  br i1 %185, label %518, label %769
 
-500:
-  %501 = mul nuw nsw i64 %431, %166
-  %502 = getelementptr double, ptr %169, i64 %501
-  %503 = getelementptr inbounds i64, ptr %170, i64 %431
-  %504 = getelementptr inbounds i8, ptr %503, i64 8
-  br label %505
+518:
+  %519 = mul nuw nsw i64 %449, %184
+  %520 = getelementptr double, ptr %187, i64 %519
+  %521 = getelementptr inbounds i64, ptr %188, i64 %449
+  %522 = getelementptr inbounds i8, ptr %521, i64 8
+  br label %523
 
-505:
-  %506 = phi <8 x i64> [ %430, %500 ], [ %748, %747 ]
-  %507 = phi i64 [ 0, %500 ], [ %749, %747 ]
-  %508 = getelementptr inbounds %struct.Object.6, ptr %168, i64 %507
-  %509 = getelementptr double, ptr %502, i64 %507
-  %510 = load double, ptr %509, align 8
-  %511 = getelementptr inbounds i8, ptr %508, i64 120
-  %512 = load double, ptr %511, align 8
-  %513 = fadd contract double %510, %512
-  %514 = fcmp contract olt double %513, -1.000000e+08
-  br i1 %514, label %747, label %515
+523:
+  %524 = phi <8 x i64> [ %448, %518 ], [ %766, %765 ]
+  %525 = phi i64 [ 0, %518 ], [ %767, %765 ]
+  %526 = getelementptr inbounds %struct.Object.6, ptr %186, i64 %525
+  %527 = getelementptr double, ptr %520, i64 %525
+  %528 = load double, ptr %527, align 8
+  %529 = getelementptr inbounds i8, ptr %526, i64 120
+  %530 = load double, ptr %529, align 8
+  %531 = fadd contract double %528, %530
+  %532 = fcmp contract olt double %531, -1.000000e+08
+  br i1 %532, label %765, label %533
 
-515:
-  %516 = fadd contract double %434, %513
-  %517 = insertelement <8 x double> poison, double %516, i64 0
-  %518 = shufflevector <8 x double> %517, <8 x double> poison, <8 x i32> zeroinitializer
-  %519 = fadd contract <8 x double> %499, %518
-  %520 = fcmp contract ogt <8 x double> %519, %428
-  %521 = select contract <8 x i1> %520, <8 x double> %519, <8 x double> %428
-  %522 = getelementptr inbounds i8, ptr %508, i64 72
-  %523 = load double, ptr %522, align 8
-  %524 = insertelement <8 x double> poison, double %523, i64 0
-  %525 = shufflevector <8 x double> %524, <8 x double> poison, <8 x i32> zeroinitializer
-  %526 = load double, ptr %508, align 8
-  %527 = insertelement <8 x double> poison, double %526, i64 0
-  %528 = shufflevector <8 x double> %527, <8 x double> poison, <8 x i32> zeroinitializer
-  %529 = fmul contract <8 x double> %461, %528
-  %530 = fadd contract <8 x double> %525, %529
-  %531 = getelementptr inbounds i8, ptr %508, i64 8
-  %532 = load double, ptr %531, align 8
-  %533 = insertelement <8 x double> poison, double %532, i64 0
-  %534 = shufflevector <8 x double> %533, <8 x double> poison, <8 x i32> zeroinitializer
-  %535 = fmul contract <8 x double> %475, %534
-  %536 = fadd contract <8 x double> %530, %535
-  %537 = getelementptr inbounds i8, ptr %508, i64 16
-  %538 = load double, ptr %537, align 8
-  %539 = insertelement <8 x double> poison, double %538, i64 0
-  %540 = shufflevector <8 x double> %539, <8 x double> poison, <8 x i32> zeroinitializer
-  %541 = fmul contract <8 x double> %489, %540
-  %542 = fadd contract <8 x double> %536, %541
-  %543 = getelementptr inbounds i8, ptr %508, i64 80
-  %544 = load double, ptr %543, align 8
+533:
+  %534 = fadd contract double %452, %531
+  %535 = insertelement <8 x double> poison, double %534, i64 0
+  %536 = shufflevector <8 x double> %535, <8 x double> poison, <8 x i32> zeroinitializer
+  %537 = fadd contract <8 x double> %517, %536
+  %538 = fcmp contract ogt <8 x double> %537, %446
+  %539 = select contract <8 x i1> %538, <8 x double> %537, <8 x double> %446
+  %540 = getelementptr inbounds i8, ptr %526, i64 72
+  %541 = load double, ptr %540, align 8
+  %542 = insertelement <8 x double> poison, double %541, i64 0
+  %543 = shufflevector <8 x double> %542, <8 x double> poison, <8 x i32> zeroinitializer
+  %544 = load double, ptr %526, align 8
   %545 = insertelement <8 x double> poison, double %544, i64 0
   %546 = shufflevector <8 x double> %545, <8 x double> poison, <8 x i32> zeroinitializer
-  %547 = getelementptr inbounds i8, ptr %508, i64 24
-  %548 = load double, ptr %547, align 8
-  %549 = insertelement <8 x double> poison, double %548, i64 0
-  %550 = shufflevector <8 x double> %549, <8 x double> poison, <8 x i32> zeroinitializer
-  %551 = fmul contract <8 x double> %461, %550
-  %552 = fadd contract <8 x double> %546, %551
-  %553 = getelementptr inbounds i8, ptr %508, i64 32
-  %554 = load double, ptr %553, align 8
-  %555 = insertelement <8 x double> poison, double %554, i64 0
-  %556 = shufflevector <8 x double> %555, <8 x double> poison, <8 x i32> zeroinitializer
-  %557 = fmul contract <8 x double> %475, %556
-  %558 = fadd contract <8 x double> %552, %557
-  %559 = getelementptr inbounds i8, ptr %508, i64 40
-  %560 = load double, ptr %559, align 8
-  %561 = insertelement <8 x double> poison, double %560, i64 0
-  %562 = shufflevector <8 x double> %561, <8 x double> poison, <8 x i32> zeroinitializer
-  %563 = fmul contract <8 x double> %489, %562
-  %564 = fadd contract <8 x double> %558, %563
-  %565 = getelementptr inbounds i8, ptr %508, i64 88
+  %547 = fmul contract <8 x double> %479, %546
+  %548 = fadd contract <8 x double> %543, %547
+  %549 = getelementptr inbounds i8, ptr %526, i64 8
+  %550 = load double, ptr %549, align 8
+  %551 = insertelement <8 x double> poison, double %550, i64 0
+  %552 = shufflevector <8 x double> %551, <8 x double> poison, <8 x i32> zeroinitializer
+  %553 = fmul contract <8 x double> %493, %552
+  %554 = fadd contract <8 x double> %548, %553
+  %555 = getelementptr inbounds i8, ptr %526, i64 16
+  %556 = load double, ptr %555, align 8
+  %557 = insertelement <8 x double> poison, double %556, i64 0
+  %558 = shufflevector <8 x double> %557, <8 x double> poison, <8 x i32> zeroinitializer
+  %559 = fmul contract <8 x double> %507, %558
+  %560 = fadd contract <8 x double> %554, %559
+  %561 = getelementptr inbounds i8, ptr %526, i64 80
+  %562 = load double, ptr %561, align 8
+  %563 = insertelement <8 x double> poison, double %562, i64 0
+  %564 = shufflevector <8 x double> %563, <8 x double> poison, <8 x i32> zeroinitializer
+  %565 = getelementptr inbounds i8, ptr %526, i64 24
   %566 = load double, ptr %565, align 8
   %567 = insertelement <8 x double> poison, double %566, i64 0
   %568 = shufflevector <8 x double> %567, <8 x double> poison, <8 x i32> zeroinitializer
-  %569 = getelementptr inbounds i8, ptr %508, i64 48
-  %570 = load double, ptr %569, align 8
-  %571 = insertelement <8 x double> poison, double %570, i64 0
-  %572 = shufflevector <8 x double> %571, <8 x double> poison, <8 x i32> zeroinitializer
-  %573 = fmul contract <8 x double> %461, %572
-  %574 = fadd contract <8 x double> %568, %573
-  %575 = getelementptr inbounds i8, ptr %508, i64 56
-  %576 = load double, ptr %575, align 8
-  %577 = insertelement <8 x double> poison, double %576, i64 0
-  %578 = shufflevector <8 x double> %577, <8 x double> poison, <8 x i32> zeroinitializer
-  %579 = fmul contract <8 x double> %475, %578
-  %580 = fadd contract <8 x double> %574, %579
-  %581 = getelementptr inbounds i8, ptr %508, i64 64
-  %582 = load double, ptr %581, align 8
-  %583 = insertelement <8 x double> poison, double %582, i64 0
-  %584 = shufflevector <8 x double> %583, <8 x double> poison, <8 x i32> zeroinitializer
-  %585 = fmul contract <8 x double> %489, %584
-  %586 = fadd contract <8 x double> %580, %585
-  %587 = fmul contract <8 x double> %542, zeroinitializer
-  %588 = getelementptr inbounds i8, ptr %508, i64 136
-  %589 = load double, ptr %588, align 8
-  %590 = fcmp contract une double %589, 0.000000e+00
-  %591 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %586)
-  %592 = select contract i1 %590, <8 x double> %586, <8 x double> %591
-  %593 = getelementptr inbounds i8, ptr %508, i64 128
+  %569 = fmul contract <8 x double> %479, %568
+  %570 = fadd contract <8 x double> %564, %569
+  %571 = getelementptr inbounds i8, ptr %526, i64 32
+  %572 = load double, ptr %571, align 8
+  %573 = insertelement <8 x double> poison, double %572, i64 0
+  %574 = shufflevector <8 x double> %573, <8 x double> poison, <8 x i32> zeroinitializer
+  %575 = fmul contract <8 x double> %493, %574
+  %576 = fadd contract <8 x double> %570, %575
+  %577 = getelementptr inbounds i8, ptr %526, i64 40
+  %578 = load double, ptr %577, align 8
+  %579 = insertelement <8 x double> poison, double %578, i64 0
+  %580 = shufflevector <8 x double> %579, <8 x double> poison, <8 x i32> zeroinitializer
+  %581 = fmul contract <8 x double> %507, %580
+  %582 = fadd contract <8 x double> %576, %581
+  %583 = getelementptr inbounds i8, ptr %526, i64 88
+  %584 = load double, ptr %583, align 8
+  %585 = insertelement <8 x double> poison, double %584, i64 0
+  %586 = shufflevector <8 x double> %585, <8 x double> poison, <8 x i32> zeroinitializer
+  %587 = getelementptr inbounds i8, ptr %526, i64 48
+  %588 = load double, ptr %587, align 8
+  %589 = insertelement <8 x double> poison, double %588, i64 0
+  %590 = shufflevector <8 x double> %589, <8 x double> poison, <8 x i32> zeroinitializer
+  %591 = fmul contract <8 x double> %479, %590
+  %592 = fadd contract <8 x double> %586, %591
+  %593 = getelementptr inbounds i8, ptr %526, i64 56
   %594 = load double, ptr %593, align 8
-  %595 = fcmp contract une double %594, 0.000000e+00
-  br i1 %595, label %596, label %601
+  %595 = insertelement <8 x double> poison, double %594, i64 0
+  %596 = shufflevector <8 x double> %595, <8 x double> poison, <8 x i32> zeroinitializer
+  %597 = fmul contract <8 x double> %493, %596
+  %598 = fadd contract <8 x double> %592, %597
+  %599 = getelementptr inbounds i8, ptr %526, i64 64
+  %600 = load double, ptr %599, align 8
+  %601 = insertelement <8 x double> poison, double %600, i64 0
+  %602 = shufflevector <8 x double> %601, <8 x double> poison, <8 x i32> zeroinitializer
+  %603 = fmul contract <8 x double> %507, %602
+  %604 = fadd contract <8 x double> %598, %603
+  %605 = fmul contract <8 x double> %560, zeroinitializer
+  %606 = getelementptr inbounds i8, ptr %526, i64 136
+  %607 = load double, ptr %606, align 8
+  %608 = fcmp contract une double %607, 0.000000e+00
+  %609 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %604)
+  %610 = select contract i1 %608, <8 x double> %604, <8 x double> %609
+  %611 = getelementptr inbounds i8, ptr %526, i64 128
+  %612 = load double, ptr %611, align 8
+  %613 = fcmp contract une double %612, 0.000000e+00
+  br i1 %613, label %614, label %619
 
-596:
-  %597 = fmul contract <8 x double> %542, %542
-  %598 = fmul contract <8 x double> %564, %564
-  %599 = fadd contract <8 x double> %597, %598
-  %600 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %599)
-  br label %603
+614:
+  %615 = fmul contract <8 x double> %560, %560
+  %616 = fmul contract <8 x double> %582, %582
+  %617 = fadd contract <8 x double> %615, %616
+  %618 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %617)
+  br label %621
 
-601:
-  %602 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %542)
-  br label %603
+619:
+  %620 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %560)
+  br label %621
 
-603:
-  %604 = phi contract <8 x double> [ %600, %596 ], [ %602, %601 ]
-  %605 = getelementptr inbounds i8, ptr %508, i64 96
-  %606 = load double, ptr %605, align 8
-  %607 = insertelement <8 x double> poison, double %606, i64 0
-  %608 = shufflevector <8 x double> %607, <8 x double> poison, <8 x i32> zeroinitializer
-  %609 = fsub contract <8 x double> %604, %608
-  %610 = fcmp contract ogt <8 x double> %609, %587
-  %611 = select contract <8 x i1> %610, <8 x double> %609, <8 x double> %587
-  %612 = getelementptr inbounds i8, ptr %508, i64 112
-  %613 = load double, ptr %612, align 8
-  %614 = insertelement <8 x double> poison, double %613, i64 0
-  %615 = shufflevector <8 x double> %614, <8 x double> poison, <8 x i32> zeroinitializer
-  %616 = fsub contract <8 x double> %592, %615
-  %617 = fcmp contract ogt <8 x double> %616, %587
-  %618 = select contract <8 x i1> %617, <8 x double> %616, <8 x double> %587
-  %619 = fmul contract <8 x double> %611, %611
-  %620 = fmul contract <8 x double> %618, %618
-  %621 = fadd contract <8 x double> %619, %620
-  br i1 %595, label %633, label %622
+621:
+  %622 = phi contract <8 x double> [ %618, %614 ], [ %620, %619 ]
+  %623 = getelementptr inbounds i8, ptr %526, i64 96
+  %624 = load double, ptr %623, align 8
+  %625 = insertelement <8 x double> poison, double %624, i64 0
+  %626 = shufflevector <8 x double> %625, <8 x double> poison, <8 x i32> zeroinitializer
+  %627 = fsub contract <8 x double> %622, %626
+  %628 = fcmp contract ogt <8 x double> %627, %605
+  %629 = select contract <8 x i1> %628, <8 x double> %627, <8 x double> %605
+  %630 = getelementptr inbounds i8, ptr %526, i64 112
+  %631 = load double, ptr %630, align 8
+  %632 = insertelement <8 x double> poison, double %631, i64 0
+  %633 = shufflevector <8 x double> %632, <8 x double> poison, <8 x i32> zeroinitializer
+  %634 = fsub contract <8 x double> %610, %633
+  %635 = fcmp contract ogt <8 x double> %634, %605
+  %636 = select contract <8 x i1> %635, <8 x double> %634, <8 x double> %605
+  %637 = fmul contract <8 x double> %629, %629
+  %638 = fmul contract <8 x double> %636, %636
+  %639 = fadd contract <8 x double> %637, %638
+  br i1 %613, label %651, label %640
 
-622:
-  %623 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %564)
-  %624 = getelementptr inbounds i8, ptr %508, i64 104
-  %625 = load double, ptr %624, align 8
-  %626 = insertelement <8 x double> poison, double %625, i64 0
-  %627 = shufflevector <8 x double> %626, <8 x double> poison, <8 x i32> zeroinitializer
-  %628 = fsub contract <8 x double> %623, %627
-  %629 = fcmp contract ogt <8 x double> %628, %587
-  %630 = select contract <8 x i1> %629, <8 x double> %628, <8 x double> %587
-  %631 = fmul contract <8 x double> %630, %630
-  %632 = fadd contract <8 x double> %621, %631
-  br label %633
+640:
+  %641 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %582)
+  %642 = getelementptr inbounds i8, ptr %526, i64 104
+  %643 = load double, ptr %642, align 8
+  %644 = insertelement <8 x double> poison, double %643, i64 0
+  %645 = shufflevector <8 x double> %644, <8 x double> poison, <8 x i32> zeroinitializer
+  %646 = fsub contract <8 x double> %641, %645
+  %647 = fcmp contract ogt <8 x double> %646, %605
+  %648 = select contract <8 x i1> %647, <8 x double> %646, <8 x double> %605
+  %649 = fmul contract <8 x double> %648, %648
+  %650 = fadd contract <8 x double> %639, %649
+  br label %651
 
-633:
-  %634 = phi <8 x double> [ %632, %622 ], [ %621, %603 ]
-  %635 = fmul contract <8 x double> %521, %521
-  %636 = fcmp contract olt <8 x double> %634, %635
-  %637 = bitcast <8 x i1> %636 to i8
-  %638 = icmp eq i8 %637, 0
-  br i1 %638, label %747, label %639
+651:
+  %652 = phi <8 x double> [ %650, %640 ], [ %639, %621 ]
+  %653 = fmul contract <8 x double> %539, %539
+  %654 = fcmp contract olt <8 x double> %652, %653
+  %655 = bitcast <8 x i1> %654 to i8
+  %656 = icmp eq i8 %655, 0
+  br i1 %656, label %765, label %657
 
-639:
-  %640 = load i64, ptr %503, align 8
-  %641 = load i64, ptr %504, align 8
-  %642 = icmp slt i64 %640, %641
-  br i1 %642, label %643, label %645
+657:
+  %658 = load i64, ptr %521, align 8
+  %659 = load i64, ptr %522, align 8
+  %660 = icmp slt i64 %658, %659
+  br i1 %660, label %661, label %663
 
-643:
-  %644 = getelementptr inbounds i8, ptr %508, i64 104
-  br label %650
+661:
+  %662 = getelementptr inbounds i8, ptr %526, i64 104
+  br label %668
 
-645:
-  %646 = phi <8 x i64> [ %506, %639 ], [ %744, %740 ]
-  %647 = icmp eq <8 x i64> %646, zeroinitializer
-  %648 = bitcast <8 x i1> %647 to i8
-  %649 = icmp eq i8 %648, 0
-  br i1 %649, label %1265, label %747
+663:
+  %664 = phi <8 x i64> [ %524, %657 ], [ %762, %758 ]
+  %665 = icmp eq <8 x i64> %664, zeroinitializer
+  %666 = bitcast <8 x i1> %665 to i8
+  %667 = icmp eq i8 %666, 0
+  br i1 %667, label %1283, label %765
 
-650:
-  %651 = phi <8 x i64> [ %506, %643 ], [ %744, %740 ]
-  %652 = phi i64 [ %640, %643 ], [ %745, %740 ]
-  %653 = getelementptr inbounds %struct.Sphere.5, ptr %171, i64 %652
-  %654 = getelementptr inbounds i8, ptr %653, i64 24
-  %655 = load double, ptr %654, align 8
-  %656 = fadd contract double %513, %655
-  %657 = insertelement <8 x double> poison, double %656, i64 0
-  %658 = shufflevector <8 x double> %657, <8 x double> poison, <8 x i32> zeroinitializer
-  %659 = fadd contract <8 x double> %499, %658
-  %660 = fcmp contract ogt <8 x double> %659, %428
-  %661 = select contract <8 x i1> %660, <8 x double> %659, <8 x double> %428
-  %662 = load double, ptr %653, align 8
-  %663 = getelementptr inbounds i8, ptr %653, i64 8
-  %664 = load double, ptr %663, align 8
-  %665 = getelementptr inbounds i8, ptr %653, i64 16
-  %666 = load double, ptr %665, align 8
-  %667 = insertelement <8 x double> poison, double %662, i64 0
-  %668 = shufflevector <8 x double> %667, <8 x double> poison, <8 x i32> zeroinitializer
-  %669 = fmul contract <8 x double> %445, %668
-  %670 = fadd contract <8 x double> %444, %669
-  %671 = insertelement <8 x double> poison, double %664, i64 0
-  %672 = shufflevector <8 x double> %671, <8 x double> poison, <8 x i32> zeroinitializer
-  %673 = fmul contract <8 x double> %451, %672
-  %674 = fadd contract <8 x double> %670, %673
-  %675 = insertelement <8 x double> poison, double %666, i64 0
+668:
+  %669 = phi <8 x i64> [ %524, %661 ], [ %762, %758 ]
+  %670 = phi i64 [ %658, %661 ], [ %763, %758 ]
+  %671 = getelementptr inbounds %struct.Sphere.5, ptr %189, i64 %670
+  %672 = getelementptr inbounds i8, ptr %671, i64 24
+  %673 = load double, ptr %672, align 8
+  %674 = fadd contract double %531, %673
+  %675 = insertelement <8 x double> poison, double %674, i64 0
   %676 = shufflevector <8 x double> %675, <8 x double> poison, <8 x i32> zeroinitializer
-  %677 = fmul contract <8 x double> %457, %676
-  %678 = fadd contract <8 x double> %674, %677
-  %679 = fmul contract <8 x double> %465, %668
-  %680 = fadd contract <8 x double> %463, %679
-  %681 = fmul contract <8 x double> %469, %672
-  %682 = fadd contract <8 x double> %680, %681
-  %683 = fmul contract <8 x double> %473, %676
-  %684 = fadd contract <8 x double> %682, %683
-  %685 = fmul contract <8 x double> %479, %668
-  %686 = fadd contract <8 x double> %477, %685
-  %687 = fmul contract <8 x double> %483, %672
-  %688 = fadd contract <8 x double> %686, %687
-  %689 = fmul contract <8 x double> %487, %676
-  %690 = fadd contract <8 x double> %688, %689
-  %691 = fmul contract <8 x double> %528, %678
-  %692 = fadd contract <8 x double> %525, %691
-  %693 = fmul contract <8 x double> %534, %684
-  %694 = fadd contract <8 x double> %693, %692
-  %695 = fmul contract <8 x double> %540, %690
-  %696 = fadd contract <8 x double> %695, %694
-  %697 = fmul contract <8 x double> %550, %678
-  %698 = fadd contract <8 x double> %546, %697
-  %699 = fmul contract <8 x double> %556, %684
-  %700 = fadd contract <8 x double> %699, %698
-  %701 = fmul contract <8 x double> %562, %690
-  %702 = fadd contract <8 x double> %701, %700
-  %703 = fmul contract <8 x double> %572, %678
-  %704 = fadd contract <8 x double> %568, %703
-  %705 = fmul contract <8 x double> %578, %684
-  %706 = fadd contract <8 x double> %705, %704
-  %707 = fmul contract <8 x double> %584, %690
-  %708 = fadd contract <8 x double> %707, %706
-  %709 = fmul contract <8 x double> %696, zeroinitializer
-  %710 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %708)
-  %711 = select contract i1 %590, <8 x double> %708, <8 x double> %710
-  br i1 %595, label %712, label %717
-
-712:
-  %713 = fmul contract <8 x double> %696, %696
-  %714 = fmul contract <8 x double> %702, %702
-  %715 = fadd contract <8 x double> %713, %714
-  %716 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %715)
-  br label %719
-
-717:
-  %718 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %696)
-  br label %719
-
-719:
-  %720 = phi contract <8 x double> [ %716, %712 ], [ %718, %717 ]
-  %721 = fsub contract <8 x double> %720, %608
-  %722 = fcmp contract ogt <8 x double> %721, %709
-  %723 = select contract <8 x i1> %722, <8 x double> %721, <8 x double> %709
-  %724 = fsub contract <8 x double> %711, %615
-  %725 = fcmp contract ogt <8 x double> %724, %709
-  %726 = select contract <8 x i1> %725, <8 x double> %724, <8 x double> %709
-  %727 = fmul contract <8 x double> %723, %723
-  %728 = fmul contract <8 x double> %726, %726
-  %729 = fadd contract <8 x double> %728, %727
-  br i1 %595, label %740, label %730
+  %677 = fadd contract <8 x double> %517, %676
+  %678 = fcmp contract ogt <8 x double> %677, %446
+  %679 = select contract <8 x i1> %678, <8 x double> %677, <8 x double> %446
+  %680 = load double, ptr %671, align 8
+  %681 = getelementptr inbounds i8, ptr %671, i64 8
+  %682 = load double, ptr %681, align 8
+  %683 = getelementptr inbounds i8, ptr %671, i64 16
+  %684 = load double, ptr %683, align 8
+  %685 = insertelement <8 x double> poison, double %680, i64 0
+  %686 = shufflevector <8 x double> %685, <8 x double> poison, <8 x i32> zeroinitializer
+  %687 = fmul contract <8 x double> %463, %686
+  %688 = fadd contract <8 x double> %462, %687
+  %689 = insertelement <8 x double> poison, double %682, i64 0
+  %690 = shufflevector <8 x double> %689, <8 x double> poison, <8 x i32> zeroinitializer
+  %691 = fmul contract <8 x double> %469, %690
+  %692 = fadd contract <8 x double> %688, %691
+  %693 = insertelement <8 x double> poison, double %684, i64 0
+  %694 = shufflevector <8 x double> %693, <8 x double> poison, <8 x i32> zeroinitializer
+  %695 = fmul contract <8 x double> %475, %694
+  %696 = fadd contract <8 x double> %692, %695
+  %697 = fmul contract <8 x double> %483, %686
+  %698 = fadd contract <8 x double> %481, %697
+  %699 = fmul contract <8 x double> %487, %690
+  %700 = fadd contract <8 x double> %698, %699
+  %701 = fmul contract <8 x double> %491, %694
+  %702 = fadd contract <8 x double> %700, %701
+  %703 = fmul contract <8 x double> %497, %686
+  %704 = fadd contract <8 x double> %495, %703
+  %705 = fmul contract <8 x double> %501, %690
+  %706 = fadd contract <8 x double> %704, %705
+  %707 = fmul contract <8 x double> %505, %694
+  %708 = fadd contract <8 x double> %706, %707
+  %709 = fmul contract <8 x double> %546, %696
+  %710 = fadd contract <8 x double> %543, %709
+  %711 = fmul contract <8 x double> %552, %702
+  %712 = fadd contract <8 x double> %711, %710
+  %713 = fmul contract <8 x double> %558, %708
+  %714 = fadd contract <8 x double> %713, %712
+  %715 = fmul contract <8 x double> %568, %696
+  %716 = fadd contract <8 x double> %564, %715
+  %717 = fmul contract <8 x double> %574, %702
+  %718 = fadd contract <8 x double> %717, %716
+  %719 = fmul contract <8 x double> %580, %708
+  %720 = fadd contract <8 x double> %719, %718
+  %721 = fmul contract <8 x double> %590, %696
+  %722 = fadd contract <8 x double> %586, %721
+  %723 = fmul contract <8 x double> %596, %702
+  %724 = fadd contract <8 x double> %723, %722
+  %725 = fmul contract <8 x double> %602, %708
+  %726 = fadd contract <8 x double> %725, %724
+  %727 = fmul contract <8 x double> %714, zeroinitializer
+  %728 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %726)
+  %729 = select contract i1 %608, <8 x double> %726, <8 x double> %728
+  br i1 %613, label %730, label %735
 
 730:
-  %731 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %702)
-  %732 = load double, ptr %644, align 8
-  %733 = insertelement <8 x double> poison, double %732, i64 0
-  %734 = shufflevector <8 x double> %733, <8 x double> poison, <8 x i32> zeroinitializer
-  %735 = fsub contract <8 x double> %731, %734
-  %736 = fcmp contract ogt <8 x double> %735, %709
-  %737 = select contract <8 x i1> %736, <8 x double> %735, <8 x double> %709
-  %738 = fmul contract <8 x double> %737, %737
-  %739 = fadd contract <8 x double> %729, %738
-  br label %740
+  %731 = fmul contract <8 x double> %714, %714
+  %732 = fmul contract <8 x double> %720, %720
+  %733 = fadd contract <8 x double> %731, %732
+  %734 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %733)
+  br label %737
 
-740:
-  %741 = phi <8 x double> [ %739, %730 ], [ %729, %719 ]
-  %742 = fmul contract <8 x double> %661, %661
-  %743 = fcmp contract olt <8 x double> %741, %742
-  %744 = select <8 x i1> %743, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %651
-  %745 = add nsw i64 %652, 1
-  %746 = icmp eq i64 %745, %641
-  br i1 %746, label %645, label %650
+735:
+  %736 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %714)
+  br label %737
 
-747:
-  %748 = phi <8 x i64> [ %646, %645 ], [ %506, %633 ], [ %506, %505 ]
-  %749 = add nuw nsw i64 %507, 1
-  %750 = icmp eq i64 %749, %166
-  br i1 %750, label %751, label %505
+737:
+  %738 = phi contract <8 x double> [ %734, %730 ], [ %736, %735 ]
+  %739 = fsub contract <8 x double> %738, %626
+  %740 = fcmp contract ogt <8 x double> %739, %727
+  %741 = select contract <8 x i1> %740, <8 x double> %739, <8 x double> %727
+  %742 = fsub contract <8 x double> %729, %633
+  %743 = fcmp contract ogt <8 x double> %742, %727
+  %744 = select contract <8 x i1> %743, <8 x double> %742, <8 x double> %727
+  %745 = fmul contract <8 x double> %741, %741
+  %746 = fmul contract <8 x double> %744, %744
+  %747 = fadd contract <8 x double> %746, %745
+  br i1 %613, label %758, label %748
 
-751:
-  %752 = phi <8 x i64> [ %430, %429 ], [ %430, %436 ], [ %748, %747 ]
-  %753 = add nuw i64 %431, 1
-  %754 = icmp eq i64 %431, %46
-  br i1 %754, label %755, label %429
-
-755:
-  %756 = phi <8 x double> [ %209, %208 ], [ %428, %751 ]
-  %757 = phi <8 x i64> [ zeroinitializer, %208 ], [ %752, %751 ]
-  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %8)
-  br i1 %53, label %760, label %758
+748:
+  %749 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %720)
+  %750 = load double, ptr %662, align 8
+  %751 = insertelement <8 x double> poison, double %750, i64 0
+  %752 = shufflevector <8 x double> %751, <8 x double> poison, <8 x i32> zeroinitializer
+  %753 = fsub contract <8 x double> %749, %752
+  %754 = fcmp contract ogt <8 x double> %753, %727
+  %755 = select contract <8 x i1> %754, <8 x double> %753, <8 x double> %727
+  %756 = fmul contract <8 x double> %755, %755
+  %757 = fadd contract <8 x double> %747, %756
+  br label %758
 
 758:
-  %759 = phi <8 x i64> [ %757, %755 ], [ %1262, %1260 ]
+  %759 = phi <8 x double> [ %757, %748 ], [ %747, %737 ]
+  %760 = fmul contract <8 x double> %679, %679
+  %761 = fcmp contract olt <8 x double> %759, %760
+  %762 = select <8 x i1> %761, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %669
+  %763 = add nsw i64 %670, 1
+  %764 = icmp eq i64 %763, %659
+  br i1 %764, label %663, label %668
+
+765:
+  %766 = phi <8 x i64> [ %664, %663 ], [ %524, %651 ], [ %524, %523 ]
+  %767 = add nuw nsw i64 %525, 1
+  %768 = icmp eq i64 %767, %184
+  br i1 %768, label %769, label %523
+
+769:
+  %770 = phi <8 x i64> [ %448, %447 ], [ %448, %454 ], [ %766, %765 ]
+  %771 = add nuw i64 %449, 1
+  %772 = icmp eq i64 %449, %46
+  br i1 %772, label %773, label %447
+
+773:
+  %774 = phi <8 x double> [ %227, %226 ], [ %446, %769 ]
+  %775 = phi <8 x i64> [ zeroinitializer, %226 ], [ %770, %769 ]
+  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %8)
+  br i1 %53, label %778, label %776
+
+776:
+  %777 = phi <8 x i64> [ %775, %773 ], [ %1280, %1278 ]
   call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %8)
-  br label %1265
+  br label %1283
 
-760:
-  %761 = phi <8 x i64> [ %1262, %1260 ], [ %757, %755 ]
-  %762 = phi i64 [ %1261, %1260 ], [ 0, %755 ]
-  %763 = phi i64 [ %1263, %1260 ], [ 0, %755 ]
-  %764 = getelementptr inbounds %struct.LinkPair, ptr %172, i64 %763
-  %765 = load i64, ptr %764, align 8
-  %766 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %765
-  %767 = getelementptr inbounds i8, ptr %764, i64 8
-  %768 = load i64, ptr %767, align 8
-  %769 = getelementptr inbounds %struct.Sphere.5, ptr %173, i64 %768
-  %770 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %765
-  %771 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %768
-  %772 = getelementptr inbounds [136 x double], ptr %22, i64 0, i64 %763
-  %773 = load double, ptr %772, align 8
-  %774 = insertelement <8 x double> poison, double %773, i64 0
-  %775 = shufflevector <8 x double> %774, <8 x double> poison, <8 x i32> zeroinitializer
-  %776 = fmul contract <8 x double> %1282, %775
-  %777 = getelementptr inbounds [136 x double], ptr %23, i64 0, i64 %763
-  %778 = load double, ptr %777, align 8
-  %779 = getelementptr inbounds double, ptr %174, i64 %763
-  %780 = load double, ptr %779, align 8
-  %781 = fadd contract double %778, %780
-  %782 = insertelement <8 x double> poison, double %781, i64 0
-  %783 = shufflevector <8 x double> %782, <8 x double> poison, <8 x i32> zeroinitializer
-  %784 = fadd contract <8 x double> %776, %783
-  %785 = load double, ptr %769, align 8
-  %786 = getelementptr inbounds i8, ptr %769, i64 8
-  %787 = load double, ptr %786, align 8
-  %788 = getelementptr inbounds i8, ptr %769, i64 16
-  %789 = load double, ptr %788, align 8
-  %790 = getelementptr inbounds i8, ptr %771, i64 576
-  %791 = load <8 x double>, ptr %790, align 64
-  %792 = load <8 x double>, ptr %771, align 64
-  %793 = insertelement <8 x double> poison, double %785, i64 0
-  %794 = shufflevector <8 x double> %793, <8 x double> poison, <8 x i32> zeroinitializer
-  %795 = fmul contract <8 x double> %794, %792
-  %796 = fadd contract <8 x double> %791, %795
-  %797 = getelementptr inbounds i8, ptr %771, i64 64
-  %798 = load <8 x double>, ptr %797, align 64
-  %799 = insertelement <8 x double> poison, double %787, i64 0
-  %800 = shufflevector <8 x double> %799, <8 x double> poison, <8 x i32> zeroinitializer
-  %801 = fmul contract <8 x double> %800, %798
-  %802 = fadd contract <8 x double> %796, %801
-  %803 = getelementptr inbounds i8, ptr %771, i64 128
-  %804 = load <8 x double>, ptr %803, align 64
-  %805 = insertelement <8 x double> poison, double %789, i64 0
-  %806 = shufflevector <8 x double> %805, <8 x double> poison, <8 x i32> zeroinitializer
-  %807 = fmul contract <8 x double> %806, %804
-  %808 = fadd contract <8 x double> %802, %807
-  %809 = getelementptr inbounds i8, ptr %771, i64 640
-  %810 = load <8 x double>, ptr %809, align 64
-  %811 = getelementptr inbounds i8, ptr %771, i64 192
-  %812 = load <8 x double>, ptr %811, align 64
-  %813 = fmul contract <8 x double> %794, %812
-  %814 = fadd contract <8 x double> %810, %813
-  %815 = getelementptr inbounds i8, ptr %771, i64 256
+778:
+  %779 = phi <8 x i64> [ %1280, %1278 ], [ %775, %773 ]
+  %780 = phi i64 [ %1279, %1278 ], [ 0, %773 ]
+  %781 = phi i64 [ %1281, %1278 ], [ 0, %773 ]
+  %782 = getelementptr inbounds %struct.LinkPair, ptr %190, i64 %781
+  %783 = load i64, ptr %782, align 8
+  %784 = getelementptr inbounds %struct.Sphere.5, ptr %191, i64 %783
+  %785 = getelementptr inbounds i8, ptr %782, i64 8
+  %786 = load i64, ptr %785, align 8
+  %787 = getelementptr inbounds %struct.Sphere.5, ptr %191, i64 %786
+  %788 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %783
+  %789 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %786
+  %790 = getelementptr inbounds [136 x double], ptr %18, i64 0, i64 %781
+  %791 = load double, ptr %790, align 8
+  %792 = insertelement <8 x double> poison, double %791, i64 0
+  %793 = shufflevector <8 x double> %792, <8 x double> poison, <8 x i32> zeroinitializer
+  %794 = fmul contract <8 x double> %1300, %793
+  %795 = getelementptr inbounds [136 x double], ptr %23, i64 0, i64 %781
+  %796 = load double, ptr %795, align 8
+  %797 = getelementptr inbounds double, ptr %192, i64 %781
+  %798 = load double, ptr %797, align 8
+  %799 = fadd contract double %796, %798
+  %800 = insertelement <8 x double> poison, double %799, i64 0
+  %801 = shufflevector <8 x double> %800, <8 x double> poison, <8 x i32> zeroinitializer
+  %802 = fadd contract <8 x double> %794, %801
+  %803 = load double, ptr %787, align 8
+  %804 = getelementptr inbounds i8, ptr %787, i64 8
+  %805 = load double, ptr %804, align 8
+  %806 = getelementptr inbounds i8, ptr %787, i64 16
+  %807 = load double, ptr %806, align 8
+  %808 = getelementptr inbounds i8, ptr %789, i64 576
+  %809 = load <8 x double>, ptr %808, align 64
+  %810 = load <8 x double>, ptr %789, align 64
+  %811 = insertelement <8 x double> poison, double %803, i64 0
+  %812 = shufflevector <8 x double> %811, <8 x double> poison, <8 x i32> zeroinitializer
+  %813 = fmul contract <8 x double> %812, %810
+  %814 = fadd contract <8 x double> %809, %813
+  %815 = getelementptr inbounds i8, ptr %789, i64 64
   %816 = load <8 x double>, ptr %815, align 64
-  %817 = fmul contract <8 x double> %800, %816
-  %818 = fadd contract <8 x double> %814, %817
-  %819 = getelementptr inbounds i8, ptr %771, i64 320
-  %820 = load <8 x double>, ptr %819, align 64
-  %821 = fmul contract <8 x double> %806, %820
-  %822 = fadd contract <8 x double> %818, %821
-  %823 = getelementptr inbounds i8, ptr %771, i64 704
-  %824 = load <8 x double>, ptr %823, align 64
-  %825 = getelementptr inbounds i8, ptr %771, i64 384
-  %826 = load <8 x double>, ptr %825, align 64
-  %827 = fmul contract <8 x double> %794, %826
-  %828 = fadd contract <8 x double> %824, %827
-  %829 = getelementptr inbounds i8, ptr %771, i64 448
+  %817 = insertelement <8 x double> poison, double %805, i64 0
+  %818 = shufflevector <8 x double> %817, <8 x double> poison, <8 x i32> zeroinitializer
+  %819 = fmul contract <8 x double> %818, %816
+  %820 = fadd contract <8 x double> %814, %819
+  %821 = getelementptr inbounds i8, ptr %789, i64 128
+  %822 = load <8 x double>, ptr %821, align 64
+  %823 = insertelement <8 x double> poison, double %807, i64 0
+  %824 = shufflevector <8 x double> %823, <8 x double> poison, <8 x i32> zeroinitializer
+  %825 = fmul contract <8 x double> %824, %822
+  %826 = fadd contract <8 x double> %820, %825
+  %827 = getelementptr inbounds i8, ptr %789, i64 640
+  %828 = load <8 x double>, ptr %827, align 64
+  %829 = getelementptr inbounds i8, ptr %789, i64 192
   %830 = load <8 x double>, ptr %829, align 64
-  %831 = fmul contract <8 x double> %800, %830
+  %831 = fmul contract <8 x double> %812, %830
   %832 = fadd contract <8 x double> %828, %831
-  %833 = getelementptr inbounds i8, ptr %771, i64 512
+  %833 = getelementptr inbounds i8, ptr %789, i64 256
   %834 = load <8 x double>, ptr %833, align 64
-  %835 = fmul contract <8 x double> %806, %834
+  %835 = fmul contract <8 x double> %818, %834
   %836 = fadd contract <8 x double> %832, %835
-  %837 = getelementptr inbounds i8, ptr %766, i64 24
-  %838 = load double, ptr %837, align 8
-  %839 = getelementptr inbounds i8, ptr %769, i64 24
-  %840 = load double, ptr %839, align 8
-  %841 = fadd contract double %838, %840
-  %842 = insertelement <8 x double> poison, double %841, i64 0
-  %843 = shufflevector <8 x double> %842, <8 x double> poison, <8 x i32> zeroinitializer
-  %844 = fadd contract <8 x double> %784, %843
-  %845 = fcmp contract ogt <8 x double> %844, %756
-  %846 = select contract <8 x i1> %845, <8 x double> %844, <8 x double> %756
-  %847 = load double, ptr %766, align 8
-  %848 = getelementptr inbounds i8, ptr %766, i64 8
-  %849 = load double, ptr %848, align 8
-  %850 = getelementptr inbounds i8, ptr %766, i64 16
-  %851 = load double, ptr %850, align 8
-  %852 = getelementptr inbounds i8, ptr %770, i64 576
-  %853 = load <8 x double>, ptr %852, align 64
-  %854 = load <8 x double>, ptr %770, align 64
-  %855 = insertelement <8 x double> poison, double %847, i64 0
-  %856 = shufflevector <8 x double> %855, <8 x double> poison, <8 x i32> zeroinitializer
-  %857 = fmul contract <8 x double> %856, %854
-  %858 = fadd contract <8 x double> %853, %857
-  %859 = getelementptr inbounds i8, ptr %770, i64 64
-  %860 = load <8 x double>, ptr %859, align 64
-  %861 = insertelement <8 x double> poison, double %849, i64 0
-  %862 = shufflevector <8 x double> %861, <8 x double> poison, <8 x i32> zeroinitializer
-  %863 = fmul contract <8 x double> %862, %860
-  %864 = fadd contract <8 x double> %858, %863
-  %865 = getelementptr inbounds i8, ptr %770, i64 128
-  %866 = load <8 x double>, ptr %865, align 64
-  %867 = insertelement <8 x double> poison, double %851, i64 0
-  %868 = shufflevector <8 x double> %867, <8 x double> poison, <8 x i32> zeroinitializer
-  %869 = fmul contract <8 x double> %868, %866
-  %870 = fadd contract <8 x double> %864, %869
-  %871 = getelementptr inbounds i8, ptr %770, i64 640
-  %872 = load <8 x double>, ptr %871, align 64
-  %873 = getelementptr inbounds i8, ptr %770, i64 192
-  %874 = load <8 x double>, ptr %873, align 64
-  %875 = fmul contract <8 x double> %856, %874
-  %876 = fadd contract <8 x double> %872, %875
-  %877 = getelementptr inbounds i8, ptr %770, i64 256
+  %837 = getelementptr inbounds i8, ptr %789, i64 320
+  %838 = load <8 x double>, ptr %837, align 64
+  %839 = fmul contract <8 x double> %824, %838
+  %840 = fadd contract <8 x double> %836, %839
+  %841 = getelementptr inbounds i8, ptr %789, i64 704
+  %842 = load <8 x double>, ptr %841, align 64
+  %843 = getelementptr inbounds i8, ptr %789, i64 384
+  %844 = load <8 x double>, ptr %843, align 64
+  %845 = fmul contract <8 x double> %812, %844
+  %846 = fadd contract <8 x double> %842, %845
+  %847 = getelementptr inbounds i8, ptr %789, i64 448
+  %848 = load <8 x double>, ptr %847, align 64
+  %849 = fmul contract <8 x double> %818, %848
+  %850 = fadd contract <8 x double> %846, %849
+  %851 = getelementptr inbounds i8, ptr %789, i64 512
+  %852 = load <8 x double>, ptr %851, align 64
+  %853 = fmul contract <8 x double> %824, %852
+  %854 = fadd contract <8 x double> %850, %853
+  %855 = getelementptr inbounds i8, ptr %784, i64 24
+  %856 = load double, ptr %855, align 8
+  %857 = getelementptr inbounds i8, ptr %787, i64 24
+  %858 = load double, ptr %857, align 8
+  %859 = fadd contract double %856, %858
+  %860 = insertelement <8 x double> poison, double %859, i64 0
+  %861 = shufflevector <8 x double> %860, <8 x double> poison, <8 x i32> zeroinitializer
+  %862 = fadd contract <8 x double> %802, %861
+  %863 = fcmp contract ogt <8 x double> %862, %774
+  %864 = select contract <8 x i1> %863, <8 x double> %862, <8 x double> %774
+  %865 = load double, ptr %784, align 8
+  %866 = getelementptr inbounds i8, ptr %784, i64 8
+  %867 = load double, ptr %866, align 8
+  %868 = getelementptr inbounds i8, ptr %784, i64 16
+  %869 = load double, ptr %868, align 8
+  %870 = getelementptr inbounds i8, ptr %788, i64 576
+  %871 = load <8 x double>, ptr %870, align 64
+  %872 = load <8 x double>, ptr %788, align 64
+  %873 = insertelement <8 x double> poison, double %865, i64 0
+  %874 = shufflevector <8 x double> %873, <8 x double> poison, <8 x i32> zeroinitializer
+  %875 = fmul contract <8 x double> %874, %872
+  %876 = fadd contract <8 x double> %871, %875
+  %877 = getelementptr inbounds i8, ptr %788, i64 64
   %878 = load <8 x double>, ptr %877, align 64
-  %879 = fmul contract <8 x double> %862, %878
-  %880 = fadd contract <8 x double> %876, %879
-  %881 = getelementptr inbounds i8, ptr %770, i64 320
-  %882 = load <8 x double>, ptr %881, align 64
-  %883 = fmul contract <8 x double> %868, %882
-  %884 = fadd contract <8 x double> %880, %883
-  %885 = getelementptr inbounds i8, ptr %770, i64 704
-  %886 = load <8 x double>, ptr %885, align 64
-  %887 = getelementptr inbounds i8, ptr %770, i64 384
-  %888 = load <8 x double>, ptr %887, align 64
-  %889 = fmul contract <8 x double> %856, %888
-  %890 = fadd contract <8 x double> %886, %889
-  %891 = getelementptr inbounds i8, ptr %770, i64 448
+  %879 = insertelement <8 x double> poison, double %867, i64 0
+  %880 = shufflevector <8 x double> %879, <8 x double> poison, <8 x i32> zeroinitializer
+  %881 = fmul contract <8 x double> %880, %878
+  %882 = fadd contract <8 x double> %876, %881
+  %883 = getelementptr inbounds i8, ptr %788, i64 128
+  %884 = load <8 x double>, ptr %883, align 64
+  %885 = insertelement <8 x double> poison, double %869, i64 0
+  %886 = shufflevector <8 x double> %885, <8 x double> poison, <8 x i32> zeroinitializer
+  %887 = fmul contract <8 x double> %886, %884
+  %888 = fadd contract <8 x double> %882, %887
+  %889 = getelementptr inbounds i8, ptr %788, i64 640
+  %890 = load <8 x double>, ptr %889, align 64
+  %891 = getelementptr inbounds i8, ptr %788, i64 192
   %892 = load <8 x double>, ptr %891, align 64
-  %893 = fmul contract <8 x double> %862, %892
+  %893 = fmul contract <8 x double> %874, %892
   %894 = fadd contract <8 x double> %890, %893
-  %895 = getelementptr inbounds i8, ptr %770, i64 512
+  %895 = getelementptr inbounds i8, ptr %788, i64 256
   %896 = load <8 x double>, ptr %895, align 64
-  %897 = fmul contract <8 x double> %868, %896
+  %897 = fmul contract <8 x double> %880, %896
   %898 = fadd contract <8 x double> %894, %897
-  %899 = fsub contract <8 x double> %870, %808
-  %900 = fsub contract <8 x double> %884, %822
-  %901 = fsub contract <8 x double> %898, %836
-  %902 = fmul contract <8 x double> %899, %899
-  %903 = fmul contract <8 x double> %900, %900
-  %904 = fadd contract <8 x double> %902, %903
-  %905 = fmul contract <8 x double> %901, %901
-  %906 = fadd contract <8 x double> %904, %905
-  %907 = fmul contract <8 x double> %846, %846
-  %908 = fcmp contract olt <8 x double> %906, %907
-  %909 = bitcast <8 x i1> %908 to i8
-  %910 = icmp eq i8 %909, 0
-  br i1 %910, label %1260, label %911
+  %899 = getelementptr inbounds i8, ptr %788, i64 320
+  %900 = load <8 x double>, ptr %899, align 64
+  %901 = fmul contract <8 x double> %886, %900
+  %902 = fadd contract <8 x double> %898, %901
+  %903 = getelementptr inbounds i8, ptr %788, i64 704
+  %904 = load <8 x double>, ptr %903, align 64
+  %905 = getelementptr inbounds i8, ptr %788, i64 384
+  %906 = load <8 x double>, ptr %905, align 64
+  %907 = fmul contract <8 x double> %874, %906
+  %908 = fadd contract <8 x double> %904, %907
+  %909 = getelementptr inbounds i8, ptr %788, i64 448
+  %910 = load <8 x double>, ptr %909, align 64
+  %911 = fmul contract <8 x double> %880, %910
+  %912 = fadd contract <8 x double> %908, %911
+  %913 = getelementptr inbounds i8, ptr %788, i64 512
+  %914 = load <8 x double>, ptr %913, align 64
+  %915 = fmul contract <8 x double> %886, %914
+  %916 = fadd contract <8 x double> %912, %915
+  %917 = fsub contract <8 x double> %888, %826
+  %918 = fsub contract <8 x double> %902, %840
+  %919 = fsub contract <8 x double> %916, %854
+  %920 = fmul contract <8 x double> %917, %917
+  %921 = fmul contract <8 x double> %918, %918
+  %922 = fadd contract <8 x double> %920, %921
+  %923 = fmul contract <8 x double> %919, %919
+  %924 = fadd contract <8 x double> %922, %923
+  %925 = fmul contract <8 x double> %864, %864
+  %926 = fcmp contract olt <8 x double> %924, %925
+  %927 = bitcast <8 x i1> %926 to i8
+  %928 = icmp eq i8 %927, 0
+  br i1 %928, label %1278, label %929
 
-911:
+929:
   call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %9)
-  store i64 %765, ptr %9, align 16
-  store i64 %768, ptr %35, align 8
-  br label %918
+  store i64 %783, ptr %9, align 16
+  store i64 %786, ptr %35, align 8
+  br label %936
 
-912:
-  %913 = getelementptr inbounds i8, ptr %764, i64 16
-  %914 = load i64, ptr %913, align 8
-  %915 = getelementptr inbounds i8, ptr %764, i64 24
-  %916 = load i64, ptr %915, align 8
-  %917 = icmp slt i64 %914, %916
-  br i1 %917, label %1001, label %999
+930:
+  %931 = getelementptr inbounds i8, ptr %782, i64 16
+  %932 = load i64, ptr %931, align 8
+  %933 = getelementptr inbounds i8, ptr %782, i64 24
+  %934 = load i64, ptr %933, align 8
+  %935 = icmp slt i64 %932, %934
+  br i1 %935, label %1019, label %1017
 
-918:
-  %919 = phi i64 [ %762, %911 ], [ %996, %995 ]
-  %920 = phi i64 [ 0, %911 ], [ %997, %995 ]
-  %921 = getelementptr inbounds i8, ptr %9, i64 %920
-  %922 = load i64, ptr %921, align 8
-  %923 = shl nuw i64 1, %922
-  %924 = and i64 %923, %919
-  %925 = icmp eq i64 %924, 0
-  br i1 %925, label %926, label %995
+936:
+  %937 = phi i64 [ %780, %929 ], [ %1014, %1013 ]
+  %938 = phi i64 [ 0, %929 ], [ %1015, %1013 ]
+  %939 = getelementptr inbounds i8, ptr %9, i64 %938
+  %940 = load i64, ptr %939, align 8
+  %941 = shl nuw i64 1, %940
+  %942 = and i64 %941, %937
+  %943 = icmp eq i64 %942, 0
+  br i1 %943, label %944, label %1013
 
-926:
-  %927 = or i64 %923, %919
-  %928 = getelementptr inbounds i64, ptr %175, i64 %922
-  %929 = load i64, ptr %928, align 8
-  %930 = getelementptr i8, ptr %928, i64 8
-  %931 = load i64, ptr %930, align 8
-  %932 = icmp slt i64 %929, %931
-  br i1 %932, label %933, label %995
+944:
+  %945 = or i64 %941, %937
+  %946 = getelementptr inbounds i64, ptr %193, i64 %940
+  %947 = load i64, ptr %946, align 8
+  %948 = getelementptr i8, ptr %946, i64 8
+  %949 = load i64, ptr %948, align 8
+  %950 = icmp slt i64 %947, %949
+  br i1 %950, label %951, label %1013
 
-933:
-  %934 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %922
-  %935 = getelementptr inbounds i8, ptr %934, i64 576
-  %936 = load <8 x double>, ptr %935, align 64
-  %937 = load <8 x double>, ptr %934, align 64
-  %938 = getelementptr inbounds i8, ptr %934, i64 64
-  %939 = load <8 x double>, ptr %938, align 64
-  %940 = getelementptr inbounds i8, ptr %934, i64 128
-  %941 = load <8 x double>, ptr %940, align 64
-  %942 = getelementptr inbounds i8, ptr %934, i64 640
-  %943 = load <8 x double>, ptr %942, align 64
-  %944 = getelementptr inbounds i8, ptr %934, i64 192
-  %945 = load <8 x double>, ptr %944, align 64
-  %946 = getelementptr inbounds i8, ptr %934, i64 256
-  %947 = load <8 x double>, ptr %946, align 64
-  %948 = getelementptr inbounds i8, ptr %934, i64 320
-  %949 = load <8 x double>, ptr %948, align 64
-  %950 = getelementptr inbounds i8, ptr %934, i64 704
-  %951 = load <8 x double>, ptr %950, align 64
-  %952 = getelementptr inbounds i8, ptr %934, i64 384
-  %953 = load <8 x double>, ptr %952, align 64
-  %954 = getelementptr inbounds i8, ptr %934, i64 448
-  %955 = load <8 x double>, ptr %954, align 64
-  %956 = getelementptr inbounds i8, ptr %934, i64 512
+951:
+  %952 = getelementptr inbounds %struct.Frame.2, ptr %13, i64 %940
+  %953 = getelementptr inbounds i8, ptr %952, i64 576
+  %954 = load <8 x double>, ptr %953, align 64
+  %955 = load <8 x double>, ptr %952, align 64
+  %956 = getelementptr inbounds i8, ptr %952, i64 64
   %957 = load <8 x double>, ptr %956, align 64
-  br label %958
+  %958 = getelementptr inbounds i8, ptr %952, i64 128
+  %959 = load <8 x double>, ptr %958, align 64
+  %960 = getelementptr inbounds i8, ptr %952, i64 640
+  %961 = load <8 x double>, ptr %960, align 64
+  %962 = getelementptr inbounds i8, ptr %952, i64 192
+  %963 = load <8 x double>, ptr %962, align 64
+  %964 = getelementptr inbounds i8, ptr %952, i64 256
+  %965 = load <8 x double>, ptr %964, align 64
+  %966 = getelementptr inbounds i8, ptr %952, i64 320
+  %967 = load <8 x double>, ptr %966, align 64
+  %968 = getelementptr inbounds i8, ptr %952, i64 704
+  %969 = load <8 x double>, ptr %968, align 64
+  %970 = getelementptr inbounds i8, ptr %952, i64 384
+  %971 = load <8 x double>, ptr %970, align 64
+  %972 = getelementptr inbounds i8, ptr %952, i64 448
+  %973 = load <8 x double>, ptr %972, align 64
+  %974 = getelementptr inbounds i8, ptr %952, i64 512
+  %975 = load <8 x double>, ptr %974, align 64
+  br label %976
 
-958:
-  %959 = phi i64 [ %929, %933 ], [ %993, %958 ]
-  %960 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %959
-  %961 = load double, ptr %960, align 8
-  %962 = getelementptr inbounds i8, ptr %960, i64 8
-  %963 = load double, ptr %962, align 8
-  %964 = getelementptr inbounds i8, ptr %960, i64 16
-  %965 = load double, ptr %964, align 8
-  %966 = insertelement <8 x double> poison, double %961, i64 0
-  %967 = shufflevector <8 x double> %966, <8 x double> poison, <8 x i32> zeroinitializer
-  %968 = fmul contract <8 x double> %937, %967
-  %969 = fadd contract <8 x double> %936, %968
-  %970 = insertelement <8 x double> poison, double %963, i64 0
-  %971 = shufflevector <8 x double> %970, <8 x double> poison, <8 x i32> zeroinitializer
-  %972 = fmul contract <8 x double> %939, %971
-  %973 = fadd contract <8 x double> %969, %972
-  %974 = insertelement <8 x double> poison, double %965, i64 0
-  %975 = shufflevector <8 x double> %974, <8 x double> poison, <8 x i32> zeroinitializer
-  %976 = fmul contract <8 x double> %941, %975
-  %977 = fadd contract <8 x double> %973, %976
-  %978 = fmul contract <8 x double> %945, %967
-  %979 = fadd contract <8 x double> %943, %978
-  %980 = fmul contract <8 x double> %947, %971
-  %981 = fadd contract <8 x double> %979, %980
-  %982 = fmul contract <8 x double> %949, %975
-  %983 = fadd contract <8 x double> %981, %982
-  %984 = fmul contract <8 x double> %953, %967
-  %985 = fadd contract <8 x double> %951, %984
-  %986 = fmul contract <8 x double> %955, %971
-  %987 = fadd contract <8 x double> %985, %986
-  %988 = fmul contract <8 x double> %957, %975
-  %989 = fadd contract <8 x double> %987, %988
-  %990 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %959
-  store <8 x double> %977, ptr %990, align 64
-  %991 = getelementptr inbounds i8, ptr %990, i64 64
-  store <8 x double> %983, ptr %991, align 64
-  %992 = getelementptr inbounds i8, ptr %990, i64 128
-  store <8 x double> %989, ptr %992, align 64
-  %993 = add nsw i64 %959, 1
-  %994 = icmp eq i64 %993, %931
-  br i1 %994, label %995, label %958
-
-995:
-  %996 = phi i64 [ %919, %918 ], [ %927, %926 ], [ %927, %958 ]
-  %997 = add nuw nsw i64 %920, 8
-  %998 = icmp eq i64 %997, 16
-  br i1 %998, label %912, label %918
-
-999:
-  %1000 = phi <8 x i64> [ %761, %912 ], [ %1257, %1254 ]
-  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %9)
-  br label %1260
-
-1001:
-  %1002 = phi <8 x i64> [ %1257, %1254 ], [ %761, %912 ]
-  %1003 = phi i64 [ %1258, %1254 ], [ %914, %912 ]
-  %1004 = phi i1 [ %1255, %1254 ], [ false, %912 ]
-  %1005 = phi i64 [ %1256, %1254 ], [ -1, %912 ]
-  %1006 = getelementptr inbounds %struct.PartPair, ptr %177, i64 %1003
-  %1007 = load i64, ptr %1006, align 8
-  %1008 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %1007
-  %1009 = getelementptr inbounds i8, ptr %1006, i64 8
-  %1010 = load i64, ptr %1009, align 8
-  %1011 = getelementptr inbounds %struct.Part.7, ptr %176, i64 %1010
-  %1012 = icmp eq i64 %1007, %1005
-  br i1 %1012, label %1040, label %1013
+976:
+  %977 = phi i64 [ %947, %951 ], [ %1011, %976 ]
+  %978 = getelementptr inbounds %struct.Part.7, ptr %194, i64 %977
+  %979 = load double, ptr %978, align 8
+  %980 = getelementptr inbounds i8, ptr %978, i64 8
+  %981 = load double, ptr %980, align 8
+  %982 = getelementptr inbounds i8, ptr %978, i64 16
+  %983 = load double, ptr %982, align 8
+  %984 = insertelement <8 x double> poison, double %979, i64 0
+  %985 = shufflevector <8 x double> %984, <8 x double> poison, <8 x i32> zeroinitializer
+  %986 = fmul contract <8 x double> %955, %985
+  %987 = fadd contract <8 x double> %954, %986
+  %988 = insertelement <8 x double> poison, double %981, i64 0
+  %989 = shufflevector <8 x double> %988, <8 x double> poison, <8 x i32> zeroinitializer
+  %990 = fmul contract <8 x double> %957, %989
+  %991 = fadd contract <8 x double> %987, %990
+  %992 = insertelement <8 x double> poison, double %983, i64 0
+  %993 = shufflevector <8 x double> %992, <8 x double> poison, <8 x i32> zeroinitializer
+  %994 = fmul contract <8 x double> %959, %993
+  %995 = fadd contract <8 x double> %991, %994
+  %996 = fmul contract <8 x double> %963, %985
+  %997 = fadd contract <8 x double> %961, %996
+  %998 = fmul contract <8 x double> %965, %989
+  %999 = fadd contract <8 x double> %997, %998
+  %1000 = fmul contract <8 x double> %967, %993
+  %1001 = fadd contract <8 x double> %999, %1000
+  %1002 = fmul contract <8 x double> %971, %985
+  %1003 = fadd contract <8 x double> %969, %1002
+  %1004 = fmul contract <8 x double> %973, %989
+  %1005 = fadd contract <8 x double> %1003, %1004
+  %1006 = fmul contract <8 x double> %975, %993
+  %1007 = fadd contract <8 x double> %1005, %1006
+  %1008 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %977
+  store <8 x double> %995, ptr %1008, align 64
+  %1009 = getelementptr inbounds i8, ptr %1008, i64 64
+  store <8 x double> %1001, ptr %1009, align 64
+  %1010 = getelementptr inbounds i8, ptr %1008, i64 128
+  store <8 x double> %1007, ptr %1010, align 64
+  %1011 = add nsw i64 %977, 1
+  %1012 = icmp eq i64 %1011, %949
+  br i1 %1012, label %1013, label %976
 
 1013:
-  %1014 = getelementptr inbounds i8, ptr %1008, i64 56
-  %1015 = load double, ptr %1014, align 8
-  %1016 = fadd contract double %840, %1015
-  %1017 = insertelement <8 x double> poison, double %1016, i64 0
-  %1018 = shufflevector <8 x double> %1017, <8 x double> poison, <8 x i32> zeroinitializer
-  %1019 = fadd contract <8 x double> %784, %1018
-  %1020 = fcmp contract ogt <8 x double> %1019, %756
-  %1021 = select contract <8 x i1> %1020, <8 x double> %1019, <8 x double> %756
-  %1022 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1007
-  %1023 = load <8 x double>, ptr %1022, align 64
-  %1024 = fsub contract <8 x double> %1023, %808
-  %1025 = getelementptr inbounds i8, ptr %1022, i64 64
-  %1026 = load <8 x double>, ptr %1025, align 64
-  %1027 = fsub contract <8 x double> %1026, %822
-  %1028 = getelementptr inbounds i8, ptr %1022, i64 128
-  %1029 = load <8 x double>, ptr %1028, align 64
-  %1030 = fsub contract <8 x double> %1029, %836
-  %1031 = fmul contract <8 x double> %1024, %1024
-  %1032 = fmul contract <8 x double> %1027, %1027
-  %1033 = fadd contract <8 x double> %1031, %1032
-  %1034 = fmul contract <8 x double> %1030, %1030
-  %1035 = fadd contract <8 x double> %1033, %1034
-  %1036 = fmul contract <8 x double> %1021, %1021
-  %1037 = fcmp contract olt <8 x double> %1035, %1036
-  %1038 = bitcast <8 x i1> %1037 to i8
-  %1039 = icmp eq i8 %1038, 0
-  br i1 %1039, label %1254, label %1050
+  %1014 = phi i64 [ %937, %936 ], [ %945, %944 ], [ %945, %976 ]
+  %1015 = add nuw nsw i64 %938, 8
+  %1016 = icmp eq i64 %1015, 16
+  br i1 %1016, label %930, label %936
 
-1040:
-  br i1 %1004, label %1041, label %1254
+1017:
+  %1018 = phi <8 x i64> [ %779, %930 ], [ %1275, %1272 ]
+  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %9)
+  br label %1278
 
-1041:
-  %1042 = getelementptr inbounds i8, ptr %1008, i64 56
-  %1043 = load double, ptr %1042, align 8
-  %1044 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1005
-  %1045 = load <8 x double>, ptr %1044, align 64
-  %1046 = getelementptr inbounds i8, ptr %1044, i64 64
+1019:
+  %1020 = phi <8 x i64> [ %1275, %1272 ], [ %779, %930 ]
+  %1021 = phi i64 [ %1276, %1272 ], [ %932, %930 ]
+  %1022 = phi i1 [ %1273, %1272 ], [ false, %930 ]
+  %1023 = phi i64 [ %1274, %1272 ], [ -1, %930 ]
+  %1024 = getelementptr inbounds %struct.PartPair, ptr %195, i64 %1021
+  %1025 = load i64, ptr %1024, align 8
+  %1026 = getelementptr inbounds %struct.Part.7, ptr %194, i64 %1025
+  %1027 = getelementptr inbounds i8, ptr %1024, i64 8
+  %1028 = load i64, ptr %1027, align 8
+  %1029 = getelementptr inbounds %struct.Part.7, ptr %194, i64 %1028
+  %1030 = icmp eq i64 %1025, %1023
+  br i1 %1030, label %1058, label %1031
+
+1031:
+  %1032 = getelementptr inbounds i8, ptr %1026, i64 56
+  %1033 = load double, ptr %1032, align 8
+  %1034 = fadd contract double %858, %1033
+  %1035 = insertelement <8 x double> poison, double %1034, i64 0
+  %1036 = shufflevector <8 x double> %1035, <8 x double> poison, <8 x i32> zeroinitializer
+  %1037 = fadd contract <8 x double> %802, %1036
+  %1038 = fcmp contract ogt <8 x double> %1037, %774
+  %1039 = select contract <8 x i1> %1038, <8 x double> %1037, <8 x double> %774
+  %1040 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1025
+  %1041 = load <8 x double>, ptr %1040, align 64
+  %1042 = fsub contract <8 x double> %1041, %826
+  %1043 = getelementptr inbounds i8, ptr %1040, i64 64
+  %1044 = load <8 x double>, ptr %1043, align 64
+  %1045 = fsub contract <8 x double> %1044, %840
+  %1046 = getelementptr inbounds i8, ptr %1040, i64 128
   %1047 = load <8 x double>, ptr %1046, align 64
-  %1048 = getelementptr inbounds i8, ptr %1044, i64 128
-  %1049 = load <8 x double>, ptr %1048, align 64
-  br label %1050
+  %1048 = fsub contract <8 x double> %1047, %854
+  %1049 = fmul contract <8 x double> %1042, %1042
+  %1050 = fmul contract <8 x double> %1045, %1045
+  %1051 = fadd contract <8 x double> %1049, %1050
+  %1052 = fmul contract <8 x double> %1048, %1048
+  %1053 = fadd contract <8 x double> %1051, %1052
+  %1054 = fmul contract <8 x double> %1039, %1039
+  %1055 = fcmp contract olt <8 x double> %1053, %1054
+  %1056 = bitcast <8 x i1> %1055 to i8
+  %1057 = icmp eq i8 %1056, 0
+  br i1 %1057, label %1272, label %1068
 
-1050:
-  %1051 = phi <8 x double> [ %1029, %1013 ], [ %1049, %1041 ]
-  %1052 = phi <8 x double> [ %1026, %1013 ], [ %1047, %1041 ]
-  %1053 = phi <8 x double> [ %1023, %1013 ], [ %1045, %1041 ]
-  %1054 = phi double [ %1015, %1013 ], [ %1043, %1041 ]
-  %1055 = phi i64 [ %1007, %1013 ], [ %1005, %1041 ]
-  %1056 = getelementptr inbounds i8, ptr %1011, i64 56
-  %1057 = load double, ptr %1056, align 8
-  %1058 = fadd contract double %1054, %1057
-  %1059 = insertelement <8 x double> poison, double %1058, i64 0
-  %1060 = shufflevector <8 x double> %1059, <8 x double> poison, <8 x i32> zeroinitializer
-  %1061 = fadd contract <8 x double> %784, %1060
-  %1062 = fcmp contract ogt <8 x double> %1061, %756
-  %1063 = select contract <8 x i1> %1062, <8 x double> %1061, <8 x double> %756
-  %1064 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1010
+1058:
+  br i1 %1022, label %1059, label %1272
+
+1059:
+  %1060 = getelementptr inbounds i8, ptr %1026, i64 56
+  %1061 = load double, ptr %1060, align 8
+  %1062 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1023
+  %1063 = load <8 x double>, ptr %1062, align 64
+  %1064 = getelementptr inbounds i8, ptr %1062, i64 64
   %1065 = load <8 x double>, ptr %1064, align 64
-  %1066 = fsub contract <8 x double> %1053, %1065
-  %1067 = getelementptr inbounds i8, ptr %1064, i64 64
-  %1068 = load <8 x double>, ptr %1067, align 64
-  %1069 = fsub contract <8 x double> %1052, %1068
-  %1070 = getelementptr inbounds i8, ptr %1064, i64 128
-  %1071 = load <8 x double>, ptr %1070, align 64
-  %1072 = fsub contract <8 x double> %1051, %1071
-  %1073 = fmul contract <8 x double> %1066, %1066
-  %1074 = fmul contract <8 x double> %1069, %1069
-  %1075 = fadd contract <8 x double> %1073, %1074
-  %1076 = fmul contract <8 x double> %1072, %1072
-  %1077 = fadd contract <8 x double> %1075, %1076
-  %1078 = fmul contract <8 x double> %1063, %1063
-  %1079 = fcmp contract olt <8 x double> %1077, %1078
-  %1080 = bitcast <8 x i1> %1079 to i8
-  %1081 = icmp eq i8 %1080, 0
-  br i1 %1081, label %1254, label %1082
+  %1066 = getelementptr inbounds i8, ptr %1062, i64 128
+  %1067 = load <8 x double>, ptr %1066, align 64
+  br label %1068
 
-1082:
-  %1083 = getelementptr inbounds i8, ptr %1008, i64 48
-  %1084 = load double, ptr %1083, align 8
-  %1085 = getelementptr inbounds i8, ptr %1011, i64 48
-  %1086 = load double, ptr %1085, align 8
-  %1087 = fadd contract double %1084, %1086
-  %1088 = insertelement <8 x double> poison, double %1087, i64 0
-  %1089 = shufflevector <8 x double> %1088, <8 x double> poison, <8 x i32> zeroinitializer
-  %1090 = fadd contract <8 x double> %784, %1089
-  %1091 = fcmp contract ogt <8 x double> %1090, %756
-  %1092 = select contract <8 x i1> %1091, <8 x double> %1090, <8 x double> %756
-  %1093 = getelementptr inbounds i8, ptr %1008, i64 24
-  %1094 = load double, ptr %1093, align 8
-  %1095 = fmul contract double %1094, %1094
-  %1096 = getelementptr inbounds i8, ptr %1008, i64 32
-  %1097 = load double, ptr %1096, align 8
-  %1098 = fmul contract double %1097, %1097
-  %1099 = fadd contract double %1095, %1098
-  %1100 = getelementptr inbounds i8, ptr %1008, i64 40
-  %1101 = load double, ptr %1100, align 8
-  %1102 = fmul contract double %1101, %1101
-  %1103 = fadd contract double %1099, %1102
-  %1104 = getelementptr inbounds i8, ptr %1011, i64 24
-  %1105 = load double, ptr %1104, align 8
-  %1106 = fmul contract double %1105, %1105
-  %1107 = getelementptr inbounds i8, ptr %1011, i64 32
-  %1108 = load double, ptr %1107, align 8
-  %1109 = fmul contract double %1108, %1108
-  %1110 = fadd contract double %1106, %1109
-  %1111 = getelementptr inbounds i8, ptr %1011, i64 40
+1068:
+  %1069 = phi <8 x double> [ %1047, %1031 ], [ %1067, %1059 ]
+  %1070 = phi <8 x double> [ %1044, %1031 ], [ %1065, %1059 ]
+  %1071 = phi <8 x double> [ %1041, %1031 ], [ %1063, %1059 ]
+  %1072 = phi double [ %1033, %1031 ], [ %1061, %1059 ]
+  %1073 = phi i64 [ %1025, %1031 ], [ %1023, %1059 ]
+  %1074 = getelementptr inbounds i8, ptr %1029, i64 56
+  %1075 = load double, ptr %1074, align 8
+  %1076 = fadd contract double %1072, %1075
+  %1077 = insertelement <8 x double> poison, double %1076, i64 0
+  %1078 = shufflevector <8 x double> %1077, <8 x double> poison, <8 x i32> zeroinitializer
+  %1079 = fadd contract <8 x double> %802, %1078
+  %1080 = fcmp contract ogt <8 x double> %1079, %774
+  %1081 = select contract <8 x i1> %1080, <8 x double> %1079, <8 x double> %774
+  %1082 = getelementptr inbounds [192 x %struct.Point.4], ptr %8, i64 0, i64 %1028
+  %1083 = load <8 x double>, ptr %1082, align 64
+  %1084 = fsub contract <8 x double> %1071, %1083
+  %1085 = getelementptr inbounds i8, ptr %1082, i64 64
+  %1086 = load <8 x double>, ptr %1085, align 64
+  %1087 = fsub contract <8 x double> %1070, %1086
+  %1088 = getelementptr inbounds i8, ptr %1082, i64 128
+  %1089 = load <8 x double>, ptr %1088, align 64
+  %1090 = fsub contract <8 x double> %1069, %1089
+  %1091 = fmul contract <8 x double> %1084, %1084
+  %1092 = fmul contract <8 x double> %1087, %1087
+  %1093 = fadd contract <8 x double> %1091, %1092
+  %1094 = fmul contract <8 x double> %1090, %1090
+  %1095 = fadd contract <8 x double> %1093, %1094
+  %1096 = fmul contract <8 x double> %1081, %1081
+  %1097 = fcmp contract olt <8 x double> %1095, %1096
+  %1098 = bitcast <8 x i1> %1097 to i8
+  %1099 = icmp eq i8 %1098, 0
+  br i1 %1099, label %1272, label %1100
+
+1100:
+  %1101 = getelementptr inbounds i8, ptr %1026, i64 48
+  %1102 = load double, ptr %1101, align 8
+  %1103 = getelementptr inbounds i8, ptr %1029, i64 48
+  %1104 = load double, ptr %1103, align 8
+  %1105 = fadd contract double %1102, %1104
+  %1106 = insertelement <8 x double> poison, double %1105, i64 0
+  %1107 = shufflevector <8 x double> %1106, <8 x double> poison, <8 x i32> zeroinitializer
+  %1108 = fadd contract <8 x double> %802, %1107
+  %1109 = fcmp contract ogt <8 x double> %1108, %774
+  %1110 = select contract <8 x i1> %1109, <8 x double> %1108, <8 x double> %774
+  %1111 = getelementptr inbounds i8, ptr %1026, i64 24
   %1112 = load double, ptr %1111, align 8
   %1113 = fmul contract double %1112, %1112
-  %1114 = fadd contract double %1110, %1113
-  %1115 = fcmp contract oeq double %1103, 0.000000e+00
-  %1116 = fcmp contract oeq double %1114, 0.000000e+00
-  %1117 = select i1 %1115, i1 %1116, i1 false
-  br i1 %1117, label %1249, label %1118
+  %1114 = getelementptr inbounds i8, ptr %1026, i64 32
+  %1115 = load double, ptr %1114, align 8
+  %1116 = fmul contract double %1115, %1115
+  %1117 = fadd contract double %1113, %1116
+  %1118 = getelementptr inbounds i8, ptr %1026, i64 40
+  %1119 = load double, ptr %1118, align 8
+  %1120 = fmul contract double %1119, %1119
+  %1121 = fadd contract double %1117, %1120
+  %1122 = getelementptr inbounds i8, ptr %1029, i64 24
+  %1123 = load double, ptr %1122, align 8
+  %1124 = fmul contract double %1123, %1123
+  %1125 = getelementptr inbounds i8, ptr %1029, i64 32
+  %1126 = load double, ptr %1125, align 8
+  %1127 = fmul contract double %1126, %1126
+  %1128 = fadd contract double %1124, %1127
+  %1129 = getelementptr inbounds i8, ptr %1029, i64 40
+  %1130 = load double, ptr %1129, align 8
+  %1131 = fmul contract double %1130, %1130
+  %1132 = fadd contract double %1128, %1131
+  %1133 = fcmp contract oeq double %1121, 0.000000e+00
+  %1134 = fcmp contract oeq double %1132, 0.000000e+00
+  %1135 = select i1 %1133, i1 %1134, i1 false
+  br i1 %1135, label %1267, label %1136
 
-1118:
-  %1119 = fmul contract <8 x double> %1053, zeroinitializer
-  %1120 = fadd contract <8 x double> %1119, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %1121 = insertelement <8 x double> poison, double %1094, i64 0
-  %1122 = shufflevector <8 x double> %1121, <8 x double> poison, <8 x i32> zeroinitializer
-  %1123 = fmul contract <8 x double> %854, %1122
-  %1124 = insertelement <8 x double> poison, double %1097, i64 0
-  %1125 = shufflevector <8 x double> %1124, <8 x double> poison, <8 x i32> zeroinitializer
-  %1126 = fmul contract <8 x double> %860, %1125
-  %1127 = fadd contract <8 x double> %1123, %1126
-  %1128 = insertelement <8 x double> poison, double %1101, i64 0
-  %1129 = shufflevector <8 x double> %1128, <8 x double> poison, <8 x i32> zeroinitializer
-  %1130 = fmul contract <8 x double> %866, %1129
-  %1131 = fadd contract <8 x double> %1127, %1130
-  %1132 = fmul contract <8 x double> %874, %1122
-  %1133 = fmul contract <8 x double> %878, %1125
-  %1134 = fadd contract <8 x double> %1132, %1133
-  %1135 = fmul contract <8 x double> %882, %1129
-  %1136 = fadd contract <8 x double> %1134, %1135
-  %1137 = fmul contract <8 x double> %888, %1122
-  %1138 = fmul contract <8 x double> %892, %1125
-  %1139 = fadd contract <8 x double> %1137, %1138
-  %1140 = fmul contract <8 x double> %896, %1129
-  %1141 = fadd contract <8 x double> %1139, %1140
-  %1142 = insertelement <8 x double> poison, double %1105, i64 0
+1136:
+  %1137 = fmul contract <8 x double> %1071, zeroinitializer
+  %1138 = fadd contract <8 x double> %1137, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %1139 = insertelement <8 x double> poison, double %1112, i64 0
+  %1140 = shufflevector <8 x double> %1139, <8 x double> poison, <8 x i32> zeroinitializer
+  %1141 = fmul contract <8 x double> %872, %1140
+  %1142 = insertelement <8 x double> poison, double %1115, i64 0
   %1143 = shufflevector <8 x double> %1142, <8 x double> poison, <8 x i32> zeroinitializer
-  %1144 = fmul contract <8 x double> %792, %1143
-  %1145 = insertelement <8 x double> poison, double %1108, i64 0
-  %1146 = shufflevector <8 x double> %1145, <8 x double> poison, <8 x i32> zeroinitializer
-  %1147 = fmul contract <8 x double> %798, %1146
-  %1148 = fadd contract <8 x double> %1144, %1147
-  %1149 = insertelement <8 x double> poison, double %1112, i64 0
-  %1150 = shufflevector <8 x double> %1149, <8 x double> poison, <8 x i32> zeroinitializer
-  %1151 = fmul contract <8 x double> %804, %1150
-  %1152 = fadd contract <8 x double> %1148, %1151
-  %1153 = fmul contract <8 x double> %812, %1143
-  %1154 = fmul contract <8 x double> %816, %1146
-  %1155 = fadd contract <8 x double> %1153, %1154
-  %1156 = fmul contract <8 x double> %820, %1150
+  %1144 = fmul contract <8 x double> %878, %1143
+  %1145 = fadd contract <8 x double> %1141, %1144
+  %1146 = insertelement <8 x double> poison, double %1119, i64 0
+  %1147 = shufflevector <8 x double> %1146, <8 x double> poison, <8 x i32> zeroinitializer
+  %1148 = fmul contract <8 x double> %884, %1147
+  %1149 = fadd contract <8 x double> %1145, %1148
+  %1150 = fmul contract <8 x double> %892, %1140
+  %1151 = fmul contract <8 x double> %896, %1143
+  %1152 = fadd contract <8 x double> %1150, %1151
+  %1153 = fmul contract <8 x double> %900, %1147
+  %1154 = fadd contract <8 x double> %1152, %1153
+  %1155 = fmul contract <8 x double> %906, %1140
+  %1156 = fmul contract <8 x double> %910, %1143
   %1157 = fadd contract <8 x double> %1155, %1156
-  %1158 = fmul contract <8 x double> %826, %1143
-  %1159 = fmul contract <8 x double> %830, %1146
-  %1160 = fadd contract <8 x double> %1158, %1159
-  %1161 = fmul contract <8 x double> %834, %1150
-  %1162 = fadd contract <8 x double> %1160, %1161
-  %1163 = fcmp contract ogt double %1103, 0.000000e+00
-  %1164 = fdiv contract double 1.000000e+00, %1103
-  %1165 = select contract i1 %1163, double %1164, double 0.000000e+00
-  %1166 = fcmp contract ogt double %1114, 0.000000e+00
-  %1167 = fdiv contract double 1.000000e+00, %1114
-  %1168 = select contract i1 %1166, double %1167, double 0.000000e+00
-  %1169 = fmul contract <8 x double> %1131, %1152
-  %1170 = fmul contract <8 x double> %1136, %1157
-  %1171 = fadd contract <8 x double> %1169, %1170
-  %1172 = fmul contract <8 x double> %1141, %1162
-  %1173 = fadd contract <8 x double> %1172, %1171
-  %1174 = fmul contract <8 x double> %1066, %1131
-  %1175 = fmul contract <8 x double> %1069, %1136
-  %1176 = fadd contract <8 x double> %1174, %1175
-  %1177 = fmul contract <8 x double> %1072, %1141
-  %1178 = fadd contract <8 x double> %1177, %1176
-  %1179 = fmul contract <8 x double> %1066, %1152
-  %1180 = fmul contract <8 x double> %1069, %1157
-  %1181 = fadd contract <8 x double> %1179, %1180
-  %1182 = fmul contract <8 x double> %1072, %1162
-  %1183 = fadd contract <8 x double> %1182, %1181
-  %1184 = fmul contract double %1103, %1114
-  %1185 = insertelement <8 x double> poison, double %1184, i64 0
-  %1186 = shufflevector <8 x double> %1185, <8 x double> poison, <8 x i32> zeroinitializer
-  %1187 = fmul contract <8 x double> %1173, %1173
-  %1188 = fsub contract <8 x double> %1186, %1187
-  %1189 = fmul contract double %1103, 0x3E7AD7F29ABCAF48
-  %1190 = fmul contract double %1189, %1114
-  %1191 = insertelement <8 x double> poison, double %1190, i64 0
-  %1192 = shufflevector <8 x double> %1191, <8 x double> poison, <8 x i32> zeroinitializer
-  %1193 = fcmp contract ogt <8 x double> %1188, %1192
-  %1194 = fmul contract <8 x double> %1173, %1183
-  %1195 = insertelement <8 x double> poison, double %1114, i64 0
-  %1196 = shufflevector <8 x double> %1195, <8 x double> poison, <8 x i32> zeroinitializer
-  %1197 = fmul contract <8 x double> %1196, %1178
-  %1198 = fsub contract <8 x double> %1194, %1197
-  %1199 = select contract <8 x i1> %1193, <8 x double> %1188, <8 x double> %1120
-  %1200 = fdiv contract <8 x double> %1198, %1199
-  %1201 = fneg contract <8 x double> %1120
-  %1202 = fcmp contract ogt <8 x double> %1200, %1201
-  %1203 = select contract <8 x i1> %1202, <8 x double> %1200, <8 x double> %1201
-  %1204 = fcmp contract olt <8 x double> %1203, %1120
-  %1205 = select contract <8 x i1> %1204, <8 x double> %1203, <8 x double> %1120
-  %1206 = select contract <8 x i1> %1193, <8 x double> %1205, <8 x double> %1201
-  %1207 = fmul contract <8 x double> %1173, %1206
-  %1208 = fadd contract <8 x double> %1183, %1207
-  %1209 = insertelement <8 x double> poison, double %1168, i64 0
+  %1158 = fmul contract <8 x double> %914, %1147
+  %1159 = fadd contract <8 x double> %1157, %1158
+  %1160 = insertelement <8 x double> poison, double %1123, i64 0
+  %1161 = shufflevector <8 x double> %1160, <8 x double> poison, <8 x i32> zeroinitializer
+  %1162 = fmul contract <8 x double> %810, %1161
+  %1163 = insertelement <8 x double> poison, double %1126, i64 0
+  %1164 = shufflevector <8 x double> %1163, <8 x double> poison, <8 x i32> zeroinitializer
+  %1165 = fmul contract <8 x double> %816, %1164
+  %1166 = fadd contract <8 x double> %1162, %1165
+  %1167 = insertelement <8 x double> poison, double %1130, i64 0
+  %1168 = shufflevector <8 x double> %1167, <8 x double> poison, <8 x i32> zeroinitializer
+  %1169 = fmul contract <8 x double> %822, %1168
+  %1170 = fadd contract <8 x double> %1166, %1169
+  %1171 = fmul contract <8 x double> %830, %1161
+  %1172 = fmul contract <8 x double> %834, %1164
+  %1173 = fadd contract <8 x double> %1171, %1172
+  %1174 = fmul contract <8 x double> %838, %1168
+  %1175 = fadd contract <8 x double> %1173, %1174
+  %1176 = fmul contract <8 x double> %844, %1161
+  %1177 = fmul contract <8 x double> %848, %1164
+  %1178 = fadd contract <8 x double> %1176, %1177
+  %1179 = fmul contract <8 x double> %852, %1168
+  %1180 = fadd contract <8 x double> %1178, %1179
+  %1181 = fcmp contract ogt double %1121, 0.000000e+00
+  %1182 = fdiv contract double 1.000000e+00, %1121
+  %1183 = select contract i1 %1181, double %1182, double 0.000000e+00
+  %1184 = fcmp contract ogt double %1132, 0.000000e+00
+  %1185 = fdiv contract double 1.000000e+00, %1132
+  %1186 = select contract i1 %1184, double %1185, double 0.000000e+00
+  %1187 = fmul contract <8 x double> %1149, %1170
+  %1188 = fmul contract <8 x double> %1154, %1175
+  %1189 = fadd contract <8 x double> %1187, %1188
+  %1190 = fmul contract <8 x double> %1159, %1180
+  %1191 = fadd contract <8 x double> %1190, %1189
+  %1192 = fmul contract <8 x double> %1084, %1149
+  %1193 = fmul contract <8 x double> %1087, %1154
+  %1194 = fadd contract <8 x double> %1192, %1193
+  %1195 = fmul contract <8 x double> %1090, %1159
+  %1196 = fadd contract <8 x double> %1195, %1194
+  %1197 = fmul contract <8 x double> %1084, %1170
+  %1198 = fmul contract <8 x double> %1087, %1175
+  %1199 = fadd contract <8 x double> %1197, %1198
+  %1200 = fmul contract <8 x double> %1090, %1180
+  %1201 = fadd contract <8 x double> %1200, %1199
+  %1202 = fmul contract double %1121, %1132
+  %1203 = insertelement <8 x double> poison, double %1202, i64 0
+  %1204 = shufflevector <8 x double> %1203, <8 x double> poison, <8 x i32> zeroinitializer
+  %1205 = fmul contract <8 x double> %1191, %1191
+  %1206 = fsub contract <8 x double> %1204, %1205
+  %1207 = fmul contract double %1121, 0x3E7AD7F29ABCAF48
+  %1208 = fmul contract double %1207, %1132
+  %1209 = insertelement <8 x double> poison, double %1208, i64 0
   %1210 = shufflevector <8 x double> %1209, <8 x double> poison, <8 x i32> zeroinitializer
-  %1211 = fmul contract <8 x double> %1210, %1208
-  %1212 = fcmp contract ogt <8 x double> %1211, %1201
-  %1213 = select contract <8 x i1> %1212, <8 x double> %1211, <8 x double> %1201
-  %1214 = fcmp contract olt <8 x double> %1213, %1120
-  %1215 = select contract <8 x i1> %1214, <8 x double> %1213, <8 x double> %1120
-  %1216 = fmul contract <8 x double> %1173, %1215
-  %1217 = fsub contract <8 x double> %1216, %1178
-  %1218 = insertelement <8 x double> poison, double %1165, i64 0
-  %1219 = shufflevector <8 x double> %1218, <8 x double> poison, <8 x i32> zeroinitializer
-  %1220 = fmul contract <8 x double> %1219, %1217
-  %1221 = fcmp contract ogt <8 x double> %1220, %1201
-  %1222 = select contract <8 x i1> %1221, <8 x double> %1220, <8 x double> %1201
-  %1223 = fcmp contract olt <8 x double> %1222, %1120
-  %1224 = select contract <8 x i1> %1223, <8 x double> %1222, <8 x double> %1120
-  %1225 = fmul contract <8 x double> %1173, %1224
-  %1226 = fadd contract <8 x double> %1183, %1225
-  %1227 = fmul contract <8 x double> %1210, %1226
-  %1228 = fcmp contract ogt <8 x double> %1227, %1201
-  %1229 = select contract <8 x i1> %1228, <8 x double> %1227, <8 x double> %1201
-  %1230 = fcmp contract olt <8 x double> %1229, %1120
-  %1231 = select contract <8 x i1> %1230, <8 x double> %1229, <8 x double> %1120
-  %1232 = fmul contract <8 x double> %1131, %1224
-  %1233 = fadd contract <8 x double> %1066, %1232
-  %1234 = fmul contract <8 x double> %1152, %1231
-  %1235 = fsub contract <8 x double> %1233, %1234
-  %1236 = fmul contract <8 x double> %1136, %1224
-  %1237 = fadd contract <8 x double> %1069, %1236
-  %1238 = fmul contract <8 x double> %1157, %1231
-  %1239 = fsub contract <8 x double> %1237, %1238
-  %1240 = fmul contract <8 x double> %1141, %1224
-  %1241 = fadd contract <8 x double> %1072, %1240
-  %1242 = fmul contract <8 x double> %1162, %1231
-  %1243 = fsub contract <8 x double> %1241, %1242
-  %1244 = fmul contract <8 x double> %1235, %1235
-  %1245 = fmul contract <8 x double> %1239, %1239
-  %1246 = fadd contract <8 x double> %1244, %1245
-  %1247 = fmul contract <8 x double> %1243, %1243
-  %1248 = fadd contract <8 x double> %1247, %1246
-  br label %1249
+  %1211 = fcmp contract ogt <8 x double> %1206, %1210
+  %1212 = fmul contract <8 x double> %1191, %1201
+  %1213 = insertelement <8 x double> poison, double %1132, i64 0
+  %1214 = shufflevector <8 x double> %1213, <8 x double> poison, <8 x i32> zeroinitializer
+  %1215 = fmul contract <8 x double> %1214, %1196
+  %1216 = fsub contract <8 x double> %1212, %1215
+  %1217 = select contract <8 x i1> %1211, <8 x double> %1206, <8 x double> %1138
+  %1218 = fdiv contract <8 x double> %1216, %1217
+  %1219 = fneg contract <8 x double> %1138
+  %1220 = fcmp contract ogt <8 x double> %1218, %1219
+  %1221 = select contract <8 x i1> %1220, <8 x double> %1218, <8 x double> %1219
+  %1222 = fcmp contract olt <8 x double> %1221, %1138
+  %1223 = select contract <8 x i1> %1222, <8 x double> %1221, <8 x double> %1138
+  %1224 = select contract <8 x i1> %1211, <8 x double> %1223, <8 x double> %1219
+  %1225 = fmul contract <8 x double> %1191, %1224
+  %1226 = fadd contract <8 x double> %1201, %1225
+  %1227 = insertelement <8 x double> poison, double %1186, i64 0
+  %1228 = shufflevector <8 x double> %1227, <8 x double> poison, <8 x i32> zeroinitializer
+  %1229 = fmul contract <8 x double> %1228, %1226
+  %1230 = fcmp contract ogt <8 x double> %1229, %1219
+  %1231 = select contract <8 x i1> %1230, <8 x double> %1229, <8 x double> %1219
+  %1232 = fcmp contract olt <8 x double> %1231, %1138
+  %1233 = select contract <8 x i1> %1232, <8 x double> %1231, <8 x double> %1138
+  %1234 = fmul contract <8 x double> %1191, %1233
+  %1235 = fsub contract <8 x double> %1234, %1196
+  %1236 = insertelement <8 x double> poison, double %1183, i64 0
+  %1237 = shufflevector <8 x double> %1236, <8 x double> poison, <8 x i32> zeroinitializer
+  %1238 = fmul contract <8 x double> %1237, %1235
+  %1239 = fcmp contract ogt <8 x double> %1238, %1219
+  %1240 = select contract <8 x i1> %1239, <8 x double> %1238, <8 x double> %1219
+  %1241 = fcmp contract olt <8 x double> %1240, %1138
+  %1242 = select contract <8 x i1> %1241, <8 x double> %1240, <8 x double> %1138
+  %1243 = fmul contract <8 x double> %1191, %1242
+  %1244 = fadd contract <8 x double> %1201, %1243
+  %1245 = fmul contract <8 x double> %1228, %1244
+  %1246 = fcmp contract ogt <8 x double> %1245, %1219
+  %1247 = select contract <8 x i1> %1246, <8 x double> %1245, <8 x double> %1219
+  %1248 = fcmp contract olt <8 x double> %1247, %1138
+  %1249 = select contract <8 x i1> %1248, <8 x double> %1247, <8 x double> %1138
+  %1250 = fmul contract <8 x double> %1149, %1242
+  %1251 = fadd contract <8 x double> %1084, %1250
+  %1252 = fmul contract <8 x double> %1170, %1249
+  %1253 = fsub contract <8 x double> %1251, %1252
+  %1254 = fmul contract <8 x double> %1154, %1242
+  %1255 = fadd contract <8 x double> %1087, %1254
+  %1256 = fmul contract <8 x double> %1175, %1249
+  %1257 = fsub contract <8 x double> %1255, %1256
+  %1258 = fmul contract <8 x double> %1159, %1242
+  %1259 = fadd contract <8 x double> %1090, %1258
+  %1260 = fmul contract <8 x double> %1180, %1249
+  %1261 = fsub contract <8 x double> %1259, %1260
+  %1262 = fmul contract <8 x double> %1253, %1253
+  %1263 = fmul contract <8 x double> %1257, %1257
+  %1264 = fadd contract <8 x double> %1262, %1263
+  %1265 = fmul contract <8 x double> %1261, %1261
+  %1266 = fadd contract <8 x double> %1265, %1264
+  br label %1267
 
-1249:
-  %1250 = phi <8 x double> [ %1248, %1118 ], [ %1077, %1082 ]
-  %1251 = fmul contract <8 x double> %1092, %1092
-  %1252 = fcmp contract olt <8 x double> %1250, %1251
-  %1253 = select <8 x i1> %1252, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %1002
-  br label %1254
+1267:
+  %1268 = phi <8 x double> [ %1266, %1136 ], [ %1095, %1100 ]
+  %1269 = fmul contract <8 x double> %1110, %1110
+  %1270 = fcmp contract olt <8 x double> %1268, %1269
+  %1271 = select <8 x i1> %1270, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %1020
+  br label %1272
 
-1254:
-  %1255 = phi i1 [ true, %1249 ], [ false, %1040 ], [ true, %1050 ], [ false, %1013 ]
-  %1256 = phi i64 [ %1055, %1249 ], [ %1005, %1040 ], [ %1055, %1050 ], [ %1007, %1013 ]
-  %1257 = phi <8 x i64> [ %1253, %1249 ], [ %1002, %1040 ], [ %1002, %1050 ], [ %1002, %1013 ]
-  %1258 = add nsw i64 %1003, 1
-  %1259 = icmp eq i64 %1258, %916
-  br i1 %1259, label %999, label %1001
+1272:
+  %1273 = phi i1 [ true, %1267 ], [ false, %1058 ], [ true, %1068 ], [ false, %1031 ]
+  %1274 = phi i64 [ %1073, %1267 ], [ %1023, %1058 ], [ %1073, %1068 ], [ %1025, %1031 ]
+  %1275 = phi <8 x i64> [ %1271, %1267 ], [ %1020, %1058 ], [ %1020, %1068 ], [ %1020, %1031 ]
+  %1276 = add nsw i64 %1021, 1
+  %1277 = icmp eq i64 %1276, %934
+  br i1 %1277, label %1017, label %1019
 
-1260:
-  %1261 = phi i64 [ %996, %999 ], [ %762, %760 ]
-  %1262 = phi <8 x i64> [ %1000, %999 ], [ %761, %760 ]
-  %1263 = add nuw nsw i64 %763, 1
-  %1264 = icmp eq i64 %1263, %52
-  br i1 %1264, label %758, label %760
+1278:
+  %1279 = phi i64 [ %1014, %1017 ], [ %780, %778 ]
+  %1280 = phi <8 x i64> [ %1018, %1017 ], [ %779, %778 ]
+  %1281 = add nuw nsw i64 %781, 1
+  %1282 = icmp eq i64 %1281, %52
+  br i1 %1282, label %776, label %778
 
-1265:
-  %1266 = phi <8 x i64> [ %759, %758 ], [ %646, %645 ]
-  %1267 = icmp sgt i64 %189, 0
-  br i1 %1267, label %1285, label %1315
+1283:
+  %1284 = phi <8 x i64> [ %777, %776 ], [ %664, %663 ]
+  %1285 = icmp sgt i64 %207, 0
+  br i1 %1285, label %1303, label %1333
 
-1268:
-  %1269 = phi <8 x double> [ %190, %188 ], [ %1279, %1268 ]
-  %1270 = phi <8 x double> [ %191, %188 ], [ %1282, %1268 ]
-  %1271 = phi i64 [ 0, %188 ], [ %1283, %1268 ]
-  %1272 = icmp sgt i64 %189, %1271
-  %1273 = xor i64 %1271, -1
-  %1274 = select i1 %1272, i64 %1273, i64 -1
-  %1275 = add i64 %1274, %189
-  %1276 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1275
-  %1277 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1271
-  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1277, ptr noundef nonnull align 16 dereferenceable(16) %1276, i64 16, i1 false)
-  %1278 = load double, ptr %1277, align 16
-  %1279 = insertelement <8 x double> %1269, double %1278, i64 %1271
-  %1280 = getelementptr inbounds i8, ptr %1277, i64 8
-  %1281 = load double, ptr %1280, align 8
-  %1282 = insertelement <8 x double> %1270, double %1281, i64 %1271
-  %1283 = add nuw nsw i64 %1271, 1
-  %1284 = icmp eq i64 %1283, 8
-  br i1 %1284, label %192, label %1268
+1286:
+  %1287 = phi <8 x double> [ %208, %206 ], [ %1297, %1286 ]
+  %1288 = phi <8 x double> [ %209, %206 ], [ %1300, %1286 ]
+  %1289 = phi i64 [ 0, %206 ], [ %1301, %1286 ]
+  %1290 = icmp sgt i64 %207, %1289
+  %1291 = xor i64 %1289, -1
+  %1292 = select i1 %1290, i64 %1291, i64 -1
+  %1293 = add i64 %1292, %207
+  %1294 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1293
+  %1295 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1289
+  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1295, ptr noundef nonnull align 16 dereferenceable(16) %1294, i64 16, i1 false)
+  %1296 = load double, ptr %1295, align 16
+  %1297 = insertelement <8 x double> %1287, double %1296, i64 %1289
+  %1298 = getelementptr inbounds i8, ptr %1295, i64 8
+  %1299 = load double, ptr %1298, align 8
+  %1300 = insertelement <8 x double> %1288, double %1299, i64 %1289
+  %1301 = add nuw nsw i64 %1289, 1
+  %1302 = icmp eq i64 %1301, 8
+  br i1 %1302, label %210, label %1286
 
-1285:
-  %1286 = phi i64 [ %1312, %1311 ], [ %207, %1265 ]
-  %1287 = phi i64 [ %1313, %1311 ], [ 0, %1265 ]
-  %1288 = extractelement <8 x i64> %1266, i64 %1287
-  %1289 = icmp eq i64 %1288, 0
-  br i1 %1289, label %1311, label %1290
+1303:
+  %1304 = phi i64 [ %1330, %1329 ], [ %225, %1283 ]
+  %1305 = phi i64 [ %1331, %1329 ], [ 0, %1283 ]
+  %1306 = extractelement <8 x i64> %1284, i64 %1305
+  %1307 = icmp eq i64 %1306, 0
+  br i1 %1307, label %1329, label %1308
 
-1290:
-  %1291 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1287
-  %1292 = getelementptr inbounds i8, ptr %1291, i64 8
-  %1293 = load double, ptr %1292, align 8
-  %1294 = fmul contract double %161, %1293
-  %1295 = fmul contract double %1294, 2.000000e+00
-  %1296 = fcmp contract olt double %1295, %5
-  %1297 = icmp sgt i64 %1286, 4094
-  %1298 = select i1 %1296, i1 true, i1 %1297
-  br i1 %1298, label %1299, label %1300
-
-1299:
-  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %14)
-  br label %1318
-
-1300:
-  %1301 = fmul contract double %1293, 5.000000e-01
-  %1302 = load double, ptr %1291, align 16
-  %1303 = fsub contract double %1302, %1301
-  %1304 = add nsw i64 %1286, 1
-  %1305 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1286
-  store double %1303, ptr %1305, align 16
-  %1306 = getelementptr inbounds i8, ptr %1305, i64 8
-  store double %1301, ptr %1306, align 8
-  %1307 = fadd contract double %1301, %1302
-  %1308 = add nsw i64 %1286, 2
-  %1309 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1304
-  store double %1307, ptr %1309, align 16
+1308:
+  %1309 = getelementptr inbounds [8 x %struct.Piece], ptr %14, i64 0, i64 %1305
   %1310 = getelementptr inbounds i8, ptr %1309, i64 8
-  store double %1301, ptr %1310, align 8
-  br label %1311
+  %1311 = load double, ptr %1310, align 8
+  %1312 = fmul contract double %179, %1311
+  %1313 = fmul contract double %1312, 2.000000e+00
+  %1314 = fcmp contract olt double %1313, %5
+  %1315 = icmp sgt i64 %1304, 4094
+  %1316 = select i1 %1314, i1 true, i1 %1315
+  br i1 %1316, label %1317, label %1318
 
-1311:
-  %1312 = phi i64 [ %1286, %1285 ], [ %1308, %1300 ]
-  %1313 = add nuw nsw i64 %1287, 1
-  %1314 = icmp eq i64 %1313, %206
-  br i1 %1314, label %1315, label %1285
-
-1315:
-  %1316 = phi i64 [ %207, %1265 ], [ %1312, %1311 ]
+1317:
   call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %14)
-  %1317 = icmp eq i64 %1316, 0
-  br i1 %1317, label %1318, label %188
+  br label %1336
 
 1318:
-  %1319 = phi i8 [ 0, %1299 ], [ 1, %1315 ]
+  %1319 = fmul contract double %1311, 5.000000e-01
+  %1320 = load double, ptr %1309, align 16
+  %1321 = fsub contract double %1320, %1319
+  %1322 = add nsw i64 %1304, 1
+  %1323 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1304
+  store double %1321, ptr %1323, align 16
+  %1324 = getelementptr inbounds i8, ptr %1323, i64 8
+  store double %1319, ptr %1324, align 8
+  %1325 = fadd contract double %1319, %1320
+  %1326 = add nsw i64 %1304, 2
+  %1327 = getelementptr inbounds [4096 x %struct.Piece], ptr %12, i64 0, i64 %1322
+  store double %1325, ptr %1327, align 16
+  %1328 = getelementptr inbounds i8, ptr %1327, i64 8
+  store double %1319, ptr %1328, align 8
+  br label %1329
+
+1329:
+  %1330 = phi i64 [ %1304, %1303 ], [ %1326, %1318 ]
+  %1331 = add nuw nsw i64 %1305, 1
+  %1332 = icmp eq i64 %1331, %224
+  br i1 %1332, label %1333, label %1303
+
+1333:
+  %1334 = phi i64 [ %225, %1283 ], [ %1330, %1329 ]
+  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %14)
+  %1335 = icmp eq i64 %1334, 0
+  br i1 %1335, label %1336, label %206
+
+1336:
+  %1337 = phi i8 [ 0, %1317 ], [ 1, %1333 ]
   call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %13)
   call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %12)
   call void @llvm.lifetime.end.p0(i64 2448, ptr nonnull %11)
-  %1320 = getelementptr inbounds i8, ptr %6, i64 %41
-  store i8 %1319, ptr %1320, align 1
-  %1321 = add nuw nsw i64 %41, 1
-  %1322 = icmp eq i64 %1321, %4
-  br i1 %1322, label %39, label %40
+  %1338 = getelementptr inbounds i8, ptr %6, i64 %41
+  store i8 %1337, ptr %1338, align 1
+  %1339 = add nuw nsw i64 %41, 1
+  %1340 = icmp eq i64 %1339, %4
+  br i1 %1340, label %39, label %40
 }
 
 define i64 @search_route(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3, i64 noundef %4, i64 noundef %5, ptr nocapture noundef %6, ptr nocapture noundef writeonly %7) {
@@ -4058,8 +4019,6 @@ define noundef i64 @shorten(ptr nocapture noundef nonnull readonly %0, ptr nocap
   call void @llvm.lifetime.end.p0(i64 8, ptr nonnull %6)
   ret i64 %7
 }
-
-declare void @llvm.memset.p0.i64(ptr nocapture writeonly, i8, i64, i1 immarg)
 
 declare <16 x float> @llvm.fabs.v16f32(<16 x float>)
 

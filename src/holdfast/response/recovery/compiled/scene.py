@@ -1,4 +1,4 @@
-"""Tables of an arm and its obstacles for the compiled checks of edges, and calls of the compiled functions."""
+"""Tables of an arm and its obstacles for the compiled checks of edges."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from holdfast.core.typing import FloatArray, IndexArray
-from holdfast.model.arm.model import Arm
-from holdfast.model.arm.poses import rotation_to_axis
+from holdfast.model.arm.configurations import align_joint_frames
 from holdfast.model.cell.solids import PrimitiveSolid
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.object_kernels import FAR_AWAY_M
@@ -19,30 +18,6 @@ from holdfast.model.collision.object_kernels import FAR_AWAY_M
 MAX_JOINTS = 16
 MAX_PARTS = 192
 _EMPTY_RADIUS_M = -1.0  # of the sphere around the spheres of a link without any
-
-
-class _SceneAddresses(Structure):
-    """Structure ``Scene`` of route_search.cpp: counts, and addresses of tables."""
-
-    _fields_ = (
-        ("joint_count", c_int64),
-        ("object_count", c_int64),
-        ("link_pair_count", c_int64),
-        ("joints", c_void_p),
-        ("first_sphere", c_void_p),
-        ("spheres", c_void_p),
-        ("enclosing", c_void_p),
-        ("objects", c_void_p),
-        ("allowances", c_void_p),
-        ("parts", c_void_p),
-        ("first_part", c_void_p),
-        ("part_enclosing", c_void_p),
-        ("link_pairs", c_void_p),
-        ("pairs", c_void_p),
-        ("link_bounds", c_void_p),
-        ("pair_bounds", c_void_p),
-        ("pair_allowances", c_void_p),
-    )
 
 
 class SceneTables(NamedTuple):
@@ -95,7 +70,7 @@ class SceneTables(NamedTuple):
             overlaps: (P,) length by which each pair may be closer than required, m.
         """
         arm, obstacles = clearance.arm, clearance.obstacles
-        frames, maps = _joint_frames(arm)
+        frames, maps = align_joint_frames(arm)
         by_link = sorted(range(len(clearance.capsules)), key=lambda index: clearance.capsules.parts[index].link)
         positions = np.argsort(np.array(by_link, dtype=np.int64))
         capsules = [clearance.capsules.parts[index] for index in by_link]
@@ -132,7 +107,7 @@ class SceneTables(NamedTuple):
                 np.column_stack([ends[is_on_link].reshape(-1, 3), np.repeat(radii[is_on_link], 2)])
             )
         return cls(
-            joints=frames,
+            joints=np.column_stack([frames[:, :3, :3].reshape(-1, 9), frames[:, :3, 3], arm.prismatic]),
             first_sphere=first_sphere,
             spheres=spheres,
             enclosing=enclosing,
@@ -149,6 +124,15 @@ class SceneTables(NamedTuple):
         )
 
 
+class _SceneAddresses(Structure):
+    """Structure ``Scene`` of route_search.cpp: counts, and the addresses of the tables in their order."""
+
+    _fields_ = (
+        *((name, c_int64) for name in ("joint_count", "object_count", "link_pair_count")),
+        *((name, c_void_p) for name in SceneTables._fields),
+    )
+
+
 class CompiledScene:
     """Tables in one precision, at addresses for compiled code."""
 
@@ -159,18 +143,6 @@ class CompiledScene:
         counts = len(tables.joints), len(tables.objects), len(tables.link_pairs)
         self._addresses = _SceneAddresses(*counts, *(array.ctypes.data for array in self._arrays))
         self.address = addressof(self._addresses)
-
-
-def _joint_frames(arm: Arm) -> tuple[FloatArray, FloatArray]:
-    """Return the joints (n, 13) of :class:`SceneTables`, and the map (n + 1, 4, 4) from each link's frame to that frame."""
-    rows, maps = [], [arm.base]
-    for joint in arm.joints:
-        to_axis = np.eye(4)
-        to_axis[:3, :3] = rotation_to_axis(joint.axis)
-        frame = maps[-1] @ joint.origin @ to_axis
-        rows.append([*frame[:3, :3].ravel(), *frame[:3, 3], float(joint.prismatic)])
-        maps.append(to_axis.T)
-    return np.array(rows), np.array(maps)
 
 
 def _to_axis_frames(points: FloatArray, links: IndexArray, maps: FloatArray) -> FloatArray:
