@@ -373,12 +373,15 @@ class ClosedLoopSimulator:
             return times, lambda time: np.stack([np.interp(time, times, column) for column in columns], axis=1)
 
         def interpolate(time: FloatArray) -> FloatArray:
-            # A shorter step from the step's beginning is as accurate as the integrator's step.
+            # A shorter step from the step's beginning is as accurate as the integrator's step; at a kink it may take several.
             step_index = np.searchsorted(parts["time"][:, 0], time * time_scale, side="right") - 1
-            step_parameters = parameters[step_index]
-            parameter_parts = self._stepper.parameters.view_parts(step_parameters)
-            parameter_parts["until"][:, 0], parameter_parts["accuracy"][:] = time * time_scale, 1.0
-            return self._stepper.layout.view_parts(self._advance_step(states[step_index], step_parameters))["q"]
+            sample_states, step_parameters = states[step_index], parameters[step_index]
+            self._stepper.parameters.view_parts(step_parameters)["until"][:, 0] = time * time_scale
+            sample_parts = self._stepper.layout.view_parts(sample_states)
+            while (sample_parts["code"] == STATE_RUNNING).any():
+                sample_states = self._advance_step(sample_states, step_parameters)
+                sample_parts = self._stepper.layout.view_parts(sample_states)
+            return sample_parts["q"]
 
         return parts["time"][:, 0] / time_scale, interpolate
 
