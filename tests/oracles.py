@@ -289,7 +289,7 @@ def condition(j: np.ndarray) -> np.ndarray:
 
 
 def orthonormal_long(j: np.ndarray) -> np.ndarray:
-    """Orthonormal rows (n, n) by Gram-Schmidt twice over: first those of one long double matrix (m, n), then of its null space."""
+    """Orthonormal rows (n, n) by repeated Gram-Schmidt: those of a long double matrix (m, n), then those of its null space."""
     m, n = j.shape
     basis: list[np.ndarray] = []
     for v in [*j, *np.random.default_rng(0).normal(size=(n - m, n)).astype(j.dtype)]:
