@@ -6,7 +6,7 @@ import type { ArmModel, Values } from "./arm_model";
 const MAX_STEPS = 30;
 const STARTS = 50;
 /** Random starts in each picture of a drag, and the largest offset of their joints, rad and m. */
-const NEAR_STARTS = 8;
+const NEAR_STARTS = 5;
 const NEAR_RANGE = 0.3;
 /** Largest error of a target that is reached: rad, and lengths in units of the arm's own length. */
 export const REACHED_ERROR = 1e-6;
