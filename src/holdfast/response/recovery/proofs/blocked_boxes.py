@@ -10,7 +10,7 @@ import numpy as np
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
-from holdfast.model.collision.capsules import BASE_LINK, Capsules, LinkCapsule
+from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.changes import pair_lipschitz_bounds
 from holdfast.model.collision.clearance import Clearance
 
@@ -45,6 +45,8 @@ class BlockedBoxes:
         self._links = np.unique(balls.link[balls.link > BASE_LINK])
         extents = np.linalg.norm(balls.center, axis=1) + balls.radius
         self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
+        is_moved = np.arange(self._arm.n)[:, None] <= self._links
+        self._least_radii = is_moved * np.where(self._arm.prismatic[:, None], 1.0, self._link_extents)
         self._axes = np.array([joint.axis for joint in self._arm.joints])
         self._self_clearance, self._margin = clearance.self_only, margin
         self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
@@ -65,6 +67,8 @@ class BlockedBoxes:
         is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
         for pair in self._self_pairs:
             indices = np.flatnonzero(~is_blocked & (pair_distances[:, pair.columns].min(axis=1) < self._margin))
+            if not indices.size:
+                continue
             upper_bounds = (
                 pair.measure_distances(self._arm, q[indices], pair_distances[indices])
                 + half_widths[indices] @ pair.lipschitz_bounds.T
@@ -78,7 +82,9 @@ class BlockedBoxes:
     def _are_boxes_hitting_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
         margins = self._inner_model.link_distances(q) - self._margins
-        indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
+        # No radius below is less than the extent of the link.
+        least_motions = half_widths @ self._least_radii
+        indices = np.flatnonzero((margins.min(axis=2) + least_motions < -_ROUNDING_SLACK_M).any(axis=1))
         margins = margins[indices]
         nearest, least_margins = margins.argmin(axis=2), margins.min(axis=2)
         half_widths, frames = half_widths[indices], self._arm.frames(q[indices])
@@ -149,28 +155,19 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
     parts = clearance.exactness.parts
     for columns, bodies in clearance.exactness.self_collision_pairs:
         ball_pairs = [
-            (LinkCapsule(parts[a].link, tuple(x), tuple(x), radius=r), LinkCapsule(parts[b].link, tuple(y), tuple(y), radius=s))
+            (*first_ball, *second_ball)
             for a, b in bodies
             if columns and parts[a].known and parts[b].known and not (parts[a].held or parts[b].held)
-            for x, r in _list_inner_balls(parts[a])
-            for y, s in _list_inner_balls(parts[b])
+            for first_ball in _list_inner_balls(parts[a])
+            for second_ball in _list_inner_balls(parts[b])
         ]
         if ball_pairs:
-            ball_capsules = Capsules(tuple(ball for pair in ball_pairs for ball in pair))
-            lipschitz_bounds = pair_lipschitz_bounds(
-                arm, ball_capsules, [(2 * index, 2 * index + 1) for index in range(len(ball_pairs))], *limits
-            )
-            first_centers, second_centers = (np.array([pair[index].start for pair in ball_pairs]) for index in (0, 1))
-            radii = np.array([x.radius + y.radius for x, y in ball_pairs])
-            link_pair = ball_pairs[0][0].link, ball_pairs[0][1].link
-            self_pairs.append(
-                _SelfCollisionPair(
-                    clearance.pair_names[columns[0]],
-                    columns,
-                    lipschitz_bounds,
-                    (*link_pair, first_centers, second_centers, radii),
-                )
-            )
+            first_centers, first_radii, second_centers, second_radii = map(np.array, zip(*ball_pairs, strict=True))
+            links = parts[bodies[0][0]].link, parts[bodies[0][1]].link
+            distances = np.linalg.norm([first_centers, second_centers], axis=2).T
+            lipschitz_bounds = pair_lipschitz_bounds(arm, np.tile(links, (len(distances), 1)), distances, *limits)
+            balls = (*links, first_centers, second_centers, first_radii + second_radii)
+            self_pairs.append(_SelfCollisionPair(clearance.pair_names[columns[0]], columns, lipschitz_bounds, balls))
     return self_pairs
 
 
