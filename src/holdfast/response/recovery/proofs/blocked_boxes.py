@@ -5,10 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import casadi as ca
 import numpy as np
 
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.kernels.disk_cache import cached_kernel
+from holdfast.kernels.kernel import Kernel
+from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
+from holdfast.model.arm.machine import ArmData
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.changes import pair_lipschitz_bounds
@@ -44,10 +49,9 @@ class BlockedBoxes:
         balls = self._inner_model.spheres
         self._links = np.unique(balls.link[balls.link > BASE_LINK])
         extents = np.linalg.norm(balls.center, axis=1) + balls.radius
-        self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
-        is_moved = np.arange(self._arm.n)[:, None] <= self._links
-        self._least_radii = is_moved * np.where(self._arm.prismatic[:, None], 1.0, self._link_extents)
-        self._axes = np.array([joint.axis for joint in self._arm.joints])
+        link_extents = np.array([extents[balls.link == link].max() for link in self._links])
+        if self._links.size and self._margins.size:
+            self._motion_kernel = _link_motion_kernel(self._arm, self._links, link_extents)
         self._self_clearance, self._margin = clearance.self_only, margin
         self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
 
@@ -82,23 +86,10 @@ class BlockedBoxes:
     def _are_boxes_hitting_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
         margins = self._inner_model.link_distances(q) - self._margins
-        # No radius below is less than the extent of the link.
-        least_motions = half_widths @ self._least_radii
-        indices = np.flatnonzero((margins.min(axis=2) + least_motions < -_ROUNDING_SLACK_M).any(axis=1))
+        indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
         margins = margins[indices]
         nearest, least_margins = margins.argmin(axis=2), margins.min(axis=2)
-        half_widths, frames = half_widths[indices], self._arm.frames(q[indices])
-        origins, axes = frames[:, 1:-1, :3, 3], np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], self._axes)
-        link_positions, max_motions = frames[:, self._links + 1][:, :, :3, 3], np.zeros_like(least_margins)
-        for index in range(self._arm.n - 1, -1, -1):
-            radii = np.ones_like(max_motions)
-            if not self._arm.prismatic[index]:
-                radii = (
-                    np.linalg.norm(np.cross(link_positions - origins[:, index, None], axes[:, index, None]), axis=2)
-                    + self._link_extents
-                    + max_motions
-                )
-            max_motions += np.where(self._links >= index, radii * half_widths[:, index, None], 0.0)
+        max_motions = self._motion_kernel.rows(q[indices], half_widths[indices])
         is_deep = least_margins + max_motions < -_ROUNDING_SLACK_M
         is_blocked[indices] = is_deep.any(axis=1)
         self._blockers |= {self._object_names[index] for index in np.unique(nearest[is_deep])}
@@ -108,6 +99,29 @@ class BlockedBoxes:
     def blocker_names(self) -> str:
         """Names of the objects and the pairs of links that blocked a box so far."""
         return ", ".join(sorted(self._blockers))
+
+
+@cached_kernel
+def _link_motion_kernel(arm: ArmData, links: IndexArray, extents: FloatArray) -> Kernel:
+    """Compile the largest motion of each of ``links``, m, within half widths (n,) around a configuration (n,).
+
+    Args:
+        arm: Arm model.
+        links: (L,) index from 0 of the joint that moves each link.
+        extents: (L,) largest distance of a point of each link from its frame, m.
+    """
+    q, half_widths = kinematics.joint_symbols(arm), ca.SX.sym("half_widths", arm.n)
+    frames, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
+    axes = [frames[index + 1][0] @ kinematics.constant_matrix(joint.axis) for index, joint in enumerate(arm.joints)]
+    motions = []
+    for link, extent in zip(links.tolist(), extents.tolist(), strict=True):
+        motion = ca.SX(0.0)
+        for index in range(link, -1, -1):
+            offset = ca.cross(frames[link + 1][1] - frames[index + 1][1], axes[index])
+            radius = 1.0 if arm.joints[index].prismatic else ca.norm_2(offset) + extent + motion
+            motion = motion + radius * half_widths[index]
+        motions.append(motion)
+    return Kernel("largest motions of links", [q, half_widths], [ca.vertcat(*motions)])
 
 
 @dataclass(frozen=True, eq=False)
