@@ -85,9 +85,8 @@ class BlockedBoxes:
 
     def _are_boxes_hitting_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
-        margins = self._inner_model.link_distances(q) - self._margins
-        indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
-        margins = margins[indices]
+        indices = np.flatnonzero(self._inner_model.smallest_distance(q) < self._margins.max() - _ROUNDING_SLACK_M)
+        margins = self._inner_model.link_distances(q[indices]) - self._margins
         nearest, least_margins = margins.argmin(axis=2), margins.min(axis=2)
         max_motions = self._motion_kernel.rows(q[indices], half_widths[indices])
         is_deep = least_margins + max_motions < -_ROUNDING_SLACK_M
