@@ -217,12 +217,14 @@ class _BoxSearch:
     def _process_boxes(self, contracted: ContractedBoxes) -> None:
         """Check contracted boxes again, bisect them, or set them aside."""
         if self._is_square:
-            holds_solution = contracted.inside & (contracted.original[:, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE)
+            holds_solution = contracted.inside.copy()
+            holds_solution[holds_solution] = contracted.original[holds_solution, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE
             if holds_solution.any():
                 self._refine_solutions(contracted.box[holds_solution, 0], contracted.original[holds_solution])
                 contracted = contracted[~holds_solution]
         contracted = self._boxes.drop_blocked(contracted)
-        tiny = contracted.box[:, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
+        tiny = contracted.box[:, 1, int(self._free.argmax())] < MIN_BOX_SIZE  # one joint first: a maximum over all takes longer
+        tiny[tiny] = contracted.box[tiny, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
         if tiny.any():
             self._refine_solutions(contracted.box[tiny, 0], contracted.box[tiny])
             contracted = contracted[~tiny]
