@@ -139,6 +139,28 @@ def test_waypoints_are_added_where_straight_lines_of_joints_leave_the_path():
     assert np.abs(tool - (0.8999 - 0.1499 * places)).max() < 6e-4
 
 
+def test_a_motion_that_skips_a_pose_without_a_configuration_is_no_motion():
+    """Between two samples of this path, the range of joint 4 ends for 2 mm; longer steps jump over it."""
+    arm = hf.arms.load("panda")
+    here = [-1.0971989, -0.6380594, 2.8203341, -1.500031, 1.8260665, 2.59821, 1.0025361]
+    corners = [
+        [-0.198852, 0.7942947, 0.3015827],
+        [-0.0403057, 0.8726561, 0.208188],
+        [-0.0466779, 0.8484047, 0.1770229],
+        [-0.2052242, 0.7700433, 0.2704175],
+        [-0.2115964, 0.745792, 0.2392524],
+        [-0.05305, 0.8241533, 0.1458577],
+    ]
+    poses = np.tile(np.eye(4), (len(corners), 1, 1))
+    poses[:, :3, :3] = Rotation.from_rotvec([-2.086085, -0.172162, 0.781469]).as_matrix()
+    poses[:, :3, 3] = corners
+    degraded = hf.Degraded(arm, ranges={"panda_joint4": (-1.936404, -1.235636)})
+    options = {"task": "pointing", "path": hf.paths.sequence(poses), "clearance": False, "samples": 0, "relax": False}
+    result = hf.recover(arm, degraded, here, goal=None, **options)
+    assert result.verdict.kind == "a pose of the path"
+    assert result.rest.furthest < 0.294
+
+
 def test_joints_that_move_fast_beside_a_singularity_are_followed():
     """Two axes of the shoulder nearly line up, so that a joint turns by 0.36 rad within 9 mm of the line, and does not jump."""
     arm = hf.arms.load("panda")

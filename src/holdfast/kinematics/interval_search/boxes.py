@@ -52,13 +52,16 @@ class ContractedBoxes:
     def bisect(self) -> FloatArray:
         """Return the boxes (K, 2, n) to check next: strongly contracted ones unchanged, the others in two halves."""
         shrunk = self.volume < _CONTRACTION_RATIO
-        upper = self.box[~shrunk]
-        row, joint_index = np.arange(len(upper)), self.widest_joint[~shrunk]
-        upper[row, 1, joint_index] /= 2
-        lower = upper.copy()
+        first, count = int(shrunk.sum()), len(shrunk) - int(shrunk.sum())
+        boxes = np.empty((first + 2 * count, *self.box.shape[1:]))
+        lower, upper = boxes[first : first + count], boxes[first + count :]
+        boxes[:first], lower[...] = self.box[shrunk], self.box[~shrunk]
+        row, joint_index = np.arange(count), self.widest_joint[~shrunk]
+        lower[row, 1, joint_index] /= 2
+        upper[...] = lower
         lower[row, 0, joint_index] -= upper[row, 1, joint_index]
         upper[row, 0, joint_index] += upper[row, 1, joint_index]
-        return np.concatenate([self.box[shrunk], lower, upper])
+        return boxes
 
 
 class BoxContractor:

@@ -22,6 +22,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, target_pose
 
 MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not bisected any more
+_MAX_SMALL_BOXES = 20_000  # undecided boxes of the smallest size, as around singular configurations
 _POLISHING_STEPS = 30
 _ISOLATION_SIZE = 1e-3  # rad and m: a provable solution in a box with smaller half widths counts as one configuration
 _LOOSE_TOLERANCE = 1e-4  # m and rad: an allowed error above this fills boxes of the smallest size
@@ -206,8 +207,9 @@ class _BoxSearch:
                 advance(contractor.checked, max_boxes)
                 if stops_at_first and len(self.solutions):
                     return SearchOutcome.SOME
-                if self._small_boxes and self._has_loose_tolerance:
-                    return SearchOutcome.OPEN  # the outcome after all boxes of that size would be the same
+                # With a loose tolerance, the outcome after all boxes of that size would be the same.
+                if sum(map(len, self._small_boxes)) > (0 if self._has_loose_tolerance else _MAX_SMALL_BOXES):
+                    return SearchOutcome.OPEN
         if self._small_boxes:
             return SearchOutcome.OPEN
         return SearchOutcome.ALL if len(self.solutions) else SearchOutcome.NONE
@@ -215,12 +217,14 @@ class _BoxSearch:
     def _process_boxes(self, contracted: ContractedBoxes) -> None:
         """Check contracted boxes again, bisect them, or set them aside."""
         if self._is_square:
-            holds_solution = contracted.inside & (contracted.original[:, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE)
+            holds_solution = contracted.inside.copy()
+            holds_solution[holds_solution] = contracted.original[holds_solution, 1].max(axis=1, initial=0.0) < _ISOLATION_SIZE
             if holds_solution.any():
                 self._refine_solutions(contracted.box[holds_solution, 0], contracted.original[holds_solution])
                 contracted = contracted[~holds_solution]
         contracted = self._boxes.drop_blocked(contracted)
-        tiny = contracted.box[:, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
+        tiny = contracted.box[:, 1, int(self._free.argmax())] < MIN_BOX_SIZE  # one joint first: a maximum over all takes longer
+        tiny[tiny] = contracted.box[tiny, 1].max(axis=1, initial=0.0) < MIN_BOX_SIZE
         if tiny.any():
             self._refine_solutions(contracted.box[tiny, 0], contracted.box[tiny])
             contracted = contracted[~tiny]

@@ -154,13 +154,18 @@ def follow_to_furthest_point(
         return replace(rest, cut_off=True), []
     stride = float(np.diff(rest.share).max())
     continuation = follow_path_furthest(search, path, first_configurations, max_path_step=stride, rng=rng)
-    furthest, graph_size = float(continuation.fractions[-1]), max(rest.graph, continuation.configuration_count)
-    rest = replace(rest, furthest=furthest, begin=continuation.q[0], graph=graph_size, cut_off=False)
-    rest = replace(rest, found=rest.found | (rest.share <= furthest))
-    if furthest < 1:
-        return rest, []
-    rest = replace(rest, share=continuation.fractions, found=np.ones(len(continuation.fractions), dtype=bool))
-    return add_motion_with_deviation(rest, search.solver, path, continuation.q), [continuation.q]
+    graph_size, refinement = max(rest.graph, continuation.configuration_count), None
+    rest = replace(rest, begin=continuation.q[0], graph=graph_size, cut_off=False)
+    if continuation.fractions[-1] == 1:
+        is_reached = np.ones(len(continuation.fractions), dtype=bool)
+        refinement = refine_waypoints(
+            replace(rest, furthest=1.0, share=continuation.fractions, found=is_reached), search, path, continuation.q
+        )
+    if refinement is None:  # perhaps because the tool leaves the path between two waypoints
+        deviating = _find_deviating_segments(search, path, continuation.fractions, continuation.q)
+        furthest = float(continuation.fractions[deviating[0] if deviating.size else -1])
+        return replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest)), []
+    return refinement[0], [refinement[1]]
 
 
 def _follow_samples(
@@ -297,24 +302,29 @@ def add_motion_with_deviation(
     return replace(rest, q=q, deviation=float(deviation))
 
 
-def refine_waypoints(rest: RestOfPath, search: PoseSearch, path: Path, q: FloatArray) -> tuple[RestOfPath, FloatArray] | None:
-    """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
-
-    Near a singular configuration joints move fast, and straight lines in joint space are not straight lines of the tool.
-    """
+def _find_deviating_segments(search: PoseSearch, path: Path, fractions: FloatArray, q: FloatArray) -> IndexArray:
+    """Return the segments (K,) of the motion q (S, n) between whose ends it deviates from the path by more than allowed."""
     tolerances = np.where(
         np.array(search.solver.rows.units) == "m",
         PATH_TOLERANCE[0] * max(search.solver.arm.length_unit, 1.0),
         PATH_TOLERANCE[1],
     )
+    inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
+    inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
+    path_errors = np.abs(
+        search.solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
+    ).reshape(*inner_fractions.shape, -1)
+    return np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
+
+
+def refine_waypoints(rest: RestOfPath, search: PoseSearch, path: Path, q: FloatArray) -> tuple[RestOfPath, FloatArray] | None:
+    """Add waypoints to the motion q (S, n) wherever it deviates from the path between two; None if this fails.
+
+    Near a singular configuration joints move fast, and straight lines in joint space are not straight lines of the tool.
+    """
     fractions, is_reached = rest.share, rest.found
     for _ in range(_MAX_WAYPOINT_BISECTIONS):
-        inner_configurations = q[:-1, None] + _INNER_FRACTIONS[:, None] * np.diff(q, axis=0)[:, None]
-        inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
-        path_errors = np.abs(
-            search.solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
-        ).reshape(*inner_fractions.shape, -1)
-        segments = np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
+        segments = _find_deviating_segments(search, path, fractions, q)
         if not segments.size:
             return replace(
                 add_motion_with_deviation(replace(rest, share=fractions, found=is_reached), search.solver, path, q), q=q

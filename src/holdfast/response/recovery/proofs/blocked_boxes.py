@@ -58,7 +58,7 @@ class BlockedBoxes:
     def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked."""
         is_blocked = np.zeros(len(q), dtype=bool)
-        indices = np.flatnonzero(np.sort(half_widths, axis=1)[:, half_widths.shape[1] // 2] < _MAX_HALF_WIDTH)
+        indices = np.flatnonzero((half_widths < _MAX_HALF_WIDTH).sum(axis=1) > half_widths.shape[1] // 2)
         if self._self_pairs:
             is_blocked[indices] = self.are_boxes_self_colliding(q[indices], half_widths[indices])
         if self._links.size and self._margins.size:
