@@ -6,10 +6,11 @@ import { defineConfig, type UserConfig } from "vite";
 const pages: Record<string, string> = { station: "index.html", experimenter: "experimenter.html" };
 
 // `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold, `--mode arm_page` the page of an arm,
-// and `--mode studio` the page of the studio: one script each, which runs where it is put.
+// `--mode any_arm` its part for URDF files, and `--mode studio` the page of the studio: one script each, which runs where it is.
 const scripts: Record<string, string> = {
   viewer: "src/viewer/main.ts",
   arm_page: "src/arm_page/main.ts",
+  any_arm: "src/arm_page/any_arm.ts",
   studio: "src/arm_page/studio.ts",
 };
 const script = (name: string): UserConfig => ({

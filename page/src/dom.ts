@@ -56,6 +56,22 @@ export function createMenu(
   return h("label", {}, h("span", {}, label), menu);
 }
 
+/** A labelled button that opens a file; one that is dropped anywhere on the page is opened as well. */
+export function createFilePicker(label: string, accept: string, open: (file: File) => void): HTMLLabelElement {
+  const picker = h("input", { type: "file", accept });
+  const openFirst = (files?: FileList | null): void => void (files?.[0] && open(files[0]));
+  picker.addEventListener("change", () => {
+    openFirst(picker.files);
+    picker.value = "";
+  });
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    openFirst(event.dataTransfer?.files);
+  });
+  return h("label", {}, h("span", {}, label), picker);
+}
+
 /** A button with an id that tests and experimenters can rely on. */
 export function button(id: string, label: string, onclick: () => void, kind = "primary"): HTMLButtonElement {
   return h("button", { type: "button", class: kind, "data-testid": id, onclick }, label);

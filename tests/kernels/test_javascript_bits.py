@@ -19,6 +19,7 @@ from holdfast.kernels.llvm.arithmetic import TargetMachine
 from holdfast.kernels.llvm.machine_code import MachineCode, compile_program
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.task import as_task, default_path_task
+from holdfast.studies.designs.family import make_revolute_arm
 
 ROWS = 200  # in each test; with 10,000 the bits are equal as well
 FUNCTIONS = {
@@ -58,7 +59,11 @@ def assert_same_bits(found, expected):
 
 
 def programs(name):
-    """The kernels of a built-in arm for its page, and those of its worst case, by name."""
+    """The kernels of a built-in arm for its page, and those of its worst case, by name; ``any arm`` has a geometry as input."""
+    if name == "any arm":
+        arm = make_revolute_arm(9)
+        made = make_page_programs(arm, as_task(arm, "pose"), kinematics.joint_symbols(arm), arm.symbols)
+        return {key: program for key, program in made.items() if program}
     arm = hf.arms.load(name)
     q, position = kinematics.joint_symbols(arm), as_task(arm, default_path_task(arm, oriented=False))
     task = as_task(arm, "pose") if arm.n >= 6 else position
@@ -84,7 +89,7 @@ def draws(rng, program, count=ROWS):
     return rows
 
 
-@pytest.mark.parametrize("name", hf.arms.names())
+@pytest.mark.parametrize("name", [*hf.arms.names(), "any arm"])
 def test_every_kernel_of_an_arm_has_the_bits_of_compiled_code(name, rng):
     for key, program in programs(name).items():
         rows = draws(rng, program)

@@ -2,7 +2,7 @@
 
 import { h, setText } from "../dom";
 import { place, sum } from "../viewer/algebra";
-import type { Part, Pose, Vector } from "../viewer/scene";
+import type { Part, Pose, Scene, Vector } from "../viewer/scene";
 import { findBody } from "../viewer/hulls";
 import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
@@ -105,9 +105,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     return story === null ? tool : sum(sum(tool, story.target), this.arm.toolPosition(story.start), -1);
   }
 
-  failedNames(): string {
-    return joinNames(this.failed.map((joint) => this.data.jointLabels[joint]));
-  }
+  failedNames = (): string => joinNames(this.failed.map((joint) => this.data.jointLabels[joint]));
 
   repairAll(): void {
     this.state.conditions.fill("healthy");
@@ -151,7 +149,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
     else this.update();
   }
 
-  protected openStep(name: string): void {
+  openStep(name: string): void {
     this.step.leave();
     this.step.ghosts = [];
     this.state.step = name;
@@ -293,24 +291,37 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   }
 
   private addStepButtons(): void {
-    const list = this.find(".arm-steps");
-    list?.removeAttribute("hidden");
-    for (const name of Object.keys(this.stepClasses)) {
-      let button = list?.querySelector<HTMLButtonElement>(`button[data-step="${name}"]`);
-      if (!button) {
-        button = h("button", { type: "button", "data-step": name }, this.data.texts[`step_${name}`]);
-        list?.append(h("li", {}, button));
-      }
-      if (name === "power" && this.arm.kernels.accelerations === null) button.parentElement?.remove();
-      if (name === "undetected" && this.data.story === null) button.parentElement?.remove();
-      button.addEventListener("click", () => {
+    const { arm, data } = this;
+    const missing = [arm.kernels.accelerations === null ? "power" : "", data.story === null ? "undetected" : ""];
+    const buttons = Object.keys(this.stepClasses).filter((name) => !missing.includes(name)).map((name) => {
+      const onclick = (): void => {
         this.touched = true;
         this.openStep(name);
-      });
-    }
+      };
+      return h("li", {}, h("button", { type: "button", "data-step": name, onclick }, data.texts[`step_${name}`]));
+    });
+    this.find(".arm-steps")?.append(...buttons);
   }
 
   protected find(selector: string): HTMLElement | null {
     return this.section.querySelector<HTMLElement>(selector);
   }
+}
+
+declare const armKernels: Record<string, PrintedKernels>;
+type PageClass = new (...args: ConstructorParameters<typeof ArmPage<any>>) => ArmPage;
+
+/** Start the arm of the document at once, and another one when the menu has chosen it. */
+export function startArms(pageClass: PageClass, steps: StepClasses): void {
+  const start = (): void => {
+    const section = document.querySelector(".arm") as HTMLElement & { armPage: ArmPage };
+    const find = <Kind extends HTMLElement>(selector: string): Kind => section.querySelector(selector) as Kind;
+    const read = (selector: string): unknown => JSON.parse(find(selector).textContent ?? "");
+    const scene = { ...(read(".view3d > script") as Scene), parts: read(".view3d-body script") as Scene["parts"] };
+    const data = { ...(read(".arm-data script") as ArmPageData), scene };
+    section.armPage = new pageClass(section, data, armKernels[data.name], find(".view3d"), find("canvas"), steps);
+    section.armPage.start();
+  };
+  document.querySelector(".arm-menu")?.addEventListener("change", start);
+  start();
 }

@@ -7,6 +7,8 @@ export type PrintedKernel = (inputs: Float64Array, outputs: Float64Array) => voi
 
 /** The kernels of an arm with n joints, m task rows, and r = n - m; matrices are stored row by row. */
 export interface PrintedKernels {
+  /** Geometry of an arm whose kernels are for any arm with at most `GENERIC_JOINTS` joints: the last input of each kernel. */
+  geometry?: Float64Array;
   /** q (n) to n + 2 poses of 12 numbers in the world: base, joints, tool. */
   frames: PrintedKernel;
   /** q (n) to the Jacobian of the tool in the world (6 x n), linear rows first. */
@@ -46,7 +48,6 @@ export interface Story {
 
 export interface ArmPageData {
   name: string;
-  title: string;
   /** What a command calls the arm, with its options, and the Python expression that loads it. */
   argument: string;
   pythonArm: string;

@@ -1,7 +1,6 @@
 /** Starts the page of an arm. */
 
-import { ArmPage } from "./arm_page";
-import { startArms } from "./start_arms";
+import { ArmPage, startArms } from "./arm_page";
 import { STEP_CLASSES } from "./steps";
 
 startArms(ArmPage, STEP_CLASSES);

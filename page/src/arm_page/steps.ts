@@ -33,7 +33,7 @@ export abstract class Step<Page extends ArmPage = ArmPage> {
   /** Set the joints and write the controls, after the visitor has chosen the step. */
   abstract enter(): void;
   /** Compute what belongs to a new configuration or condition. */
-  abstract update(): void;
+  update(): void {}
   /** Return the headline and its detail. */
   abstract sentences(): [string, string];
 
@@ -89,8 +89,6 @@ export class HealthyStep extends Step {
     this.page.repairAll();
   }
 
-  update(): void {}
-
   sentences(): [string, string] {
     const { fractions, worst, touched } = this.page;
     if (!touched) return [this.text("healthy_before"), this.text("healthy_detail")];
@@ -114,7 +112,7 @@ export class LockStep extends Step {
     );
   }
 
-  update(): void {
+  override update(): void {
     const { arm, state, failed } = this.page;
     this.lost = failed.length ? lostMotions(arm, state.q, failed) : [];
   }
@@ -168,7 +166,7 @@ export class PrepareStep extends Step {
     this.page.controls.replaceChildren(this.curve, this.input, this.row(best, directions > 1 ? menu : null));
   }
 
-  update(): void {
+  override update(): void {
     const { arm, state, failed } = this.page;
     if (this.motion?.configurations[this.index] === state.q) return this.showMotion(this.motion);
     this.computeWhenDue(() => {
@@ -252,8 +250,6 @@ export class UndetectedStep extends Step {
     this.rest();
   }
 
-  update(): void {}
-
   /** Simulate the motions from the present configuration, and play them. */
   override rest(): void {
     const { arm, state, failed, data, controlTarget } = this.page;
@@ -315,7 +311,7 @@ export class PowerStep<Page extends ArmPage = ArmPage> extends Step<Page> {
     );
   }
 
-  update(): void {
+  override update(): void {
     const { arm, state, data } = this.page;
     const free = listJoints(state.conditions, "free");
     (this.joints.control as HTMLSelectElement).selectedIndex = free.length === 1 ? free[0] + 1 : 0;

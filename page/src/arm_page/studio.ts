@@ -1,6 +1,6 @@
 /** Starts the page of the studio. */
 
-import { startArms } from "./start_arms";
+import { startArms } from "./arm_page";
 import { StudioPage } from "./studio_page";
 import { STUDIO_STEPS } from "./studio_steps";
 

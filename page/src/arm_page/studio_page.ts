@@ -35,7 +35,6 @@ export interface StudioStepParts {
   /** Show a new answer to the question `reading`. */
   showReading?: () => void;
   choosePoint?: (index: number) => void;
-  openFile?: (file: File) => Promise<void>;
 }
 
 type StudioPageData = ArmPageData & { studio: StudioData };
@@ -84,14 +83,6 @@ export class StudioPage extends ArmPage<StudioPageData> {
     });
     const summary = h("summary", {}, texts.studio_susceptibilities);
     this.find(".arm-commands")?.before(h("details", {}, summary, kinds, this.susceptibilityList));
-    document.addEventListener("dragover", (event) => event.preventDefault());
-    document.addEventListener("drop", (event) => {
-      event.preventDefault();
-      const file = event.dataTransfer?.files[0];
-      if (!file) return;
-      this.openStep("file");
-      void this.parts.openFile?.(file);
-    });
     this.view.box.addEventListener("view3d:point", (event) => this.parts.choosePoint?.((event as CustomEvent<number>).detail));
     this.placeObjects();
     super.start();
@@ -136,7 +127,7 @@ export class StudioPage extends ArmPage<StudioPageData> {
     return menu;
   }
 
-  protected override openStep(name: string): void {
+  override openStep(name: string): void {
     this.cancel();
     this.report("");
     this.resultBasis = "";

@@ -1,6 +1,6 @@
 /** Steps of the studio after the five steps of the page; the server computes what they show. */
 
-import { h } from "../dom";
+import { createFilePicker, h } from "../dom";
 import type { Answers, Cloud, Watch } from "./answers";
 import type { GhostColor } from "./page_view";
 import { saveFile, savePicture } from "./picture_file";
@@ -13,8 +13,6 @@ type MotionColor = Extract<GhostColor, "green" | "orange" | "purple">;
 const LATEST_ONSET_S = 4;
 
 abstract class StudioStep extends Step<StudioPage> implements StudioStepParts {
-  update(): void {}
-
   discard(): void {
     this.ghosts = [];
   }
@@ -276,17 +274,16 @@ class WatchStep extends MotionStep {
 
 class FileStep extends MotionStep {
   readonly show = "file";
+  private readonly picker = createFilePicker(this.text("studio_open_file"), ".urdf,.xml,.yaml,.yml,.csv", (file) => {
+    this.page.openStep("file");
+    void this.openFile(file);
+  });
 
   enter(): void {
     const { state, objects } = this.page.data.studio;
-    const picker = h("input", { type: "file", accept: ".urdf,.xml,.yaml,.yml,.csv" });
-    picker.addEventListener("change", () => {
-      if (picker.files?.[0]) void this.openFile(picker.files[0]);
-      picker.value = "";
-    });
     const { name } = this.page.data;
     this.page.controls.replaceChildren(
-      h("label", {}, h("span", {}, this.text("studio_open_file")), picker),
+      this.picker,
       this.row(
         state.file === null ? null : this.button("studio_open_motion", () => void this.run()),
         this.button("studio_png", () => void savePicture(this.page.view, `${name}.png`)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from functools import lru_cache
 from pathlib import Path
@@ -86,3 +87,26 @@ def browser():
     """A running headless Chromium."""
     with chromium.opened(chromium.required) as opened:
         yield opened
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """``opened(html)``: the page from disk, whose errors, console texts, and requests fail the test."""
+    contexts, faults = [], []
+
+    def show(html, width=1200, fragment="", **options):
+        context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
+        contexts.append(context)
+        context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url))
+        page = context.new_page()
+        page.on("pageerror", lambda error: faults.append(f"{error} {error.stack}"))
+        page.on("console", lambda message: faults.append(message.text))
+        file = tmp_path / f"{len(contexts)}.html"
+        file.write_text(html, encoding="utf-8")
+        page.goto(file.as_uri() + fragment)
+        return page
+
+    yield show
+    for context in contexts:
+        context.close()
+    assert faults == []

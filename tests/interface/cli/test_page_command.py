@@ -31,10 +31,10 @@ def test_the_options_are_those_of_the_page(cli, tmp_path):
     assert [law["slug"] for law in data["story"]["laws"]] == ["damped:0.1", "pseudoinverse"]
     assert data["story"]["target"][:2] == [1.5, 1.2]
     assert data["story"]["motions"] == 0  # the target was given
-    assert cli("page", "panda", "--out", file, "--plain", "--cell", bench, "--with", "planar-3r")[0] == 0
+    assert cli("page", "panda", "--out", file, "--plain", "--cell", bench, "--with", "xarm7")[0] == 0
     scene, data, html = read_data(file)
     assert scene["objects"]
-    assert html.count('class="arm"') == 2
+    assert "<option>xarm7</option>" in html
     assert "arm-steps" not in re.sub(r"<(style|script).*?</\1>", "", html, flags=re.DOTALL)
 
 
@@ -46,7 +46,7 @@ def test_the_options_are_those_of_the_page(cli, tmp_path):
         (["--law", "none", "--law", "pseudoinverse"], "none"),
         (["--q", "1,2"], "q for 'planar-3r' has 2 values"),
         (["--with", "no-such-arm"], "no-such-arm"),
-        (["--with", "planar-3r"], "two arms have the name 'planar-3r'"),
+        (["--with", "panda"], "'planar-3r' does not fit into a menu; its arms need 6 to 9 revolute joints"),
     ],
 )
 def test_bad_input_gets_a_sentence_and_writes_nothing(refused, tmp_path, options, sentence):

@@ -43,9 +43,11 @@ class SymbolicJoint(Joint):
 
 @dataclass(frozen=True, eq=False)
 class SymbolicArm(Arm):
-    """Arm whose constants can be symbols, for use in equations only."""
+    """Arm whose constants can be symbols, for use in equations only; ``symbols`` are those of :func:`make_revolute_arm`."""
 
     limits: tuple[Sequence[SX], Sequence[SX]] = field(default=((), ()))
+    symbols: tuple[SX, ...] = ()
+    length_unit = 1.0  # m, because lengths can be symbols
 
     def __post_init__(self) -> None:
         """Skip the checks, because the designs that provide the numbers are checked."""
@@ -90,6 +92,22 @@ def make_symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
         @ _make_tool_transform(table.tool, {kind: symbol for (row_, kind), symbol in open_symbols.items() if row_ is None})
     )
     return SymbolicArm(f"designs of {space.arm.name}", tuple(joints), base=table.base, tool=tool, limits=(lower, upper))
+
+
+def make_revolute_arm(joint_count: int) -> SymbolicArm:
+    """Return any arm with at most ``joint_count`` revolute joints, whose geometry consists of symbols.
+
+    These are the pose (3, 4) of each joint, with its axis as z, in the frame of the joint before it; the tool pose (3, 4) in
+    the frame of the last joint; the lower and the upper limits (n,); and 1 for each joint of the arm, 0 for the remaining ones
+    (n,). The remaining joints must be at the tool point.
+    """
+    poses = [ca.SX.sym("pose", 3, 4) for _ in range(joint_count + 1)]
+    lower, upper, present = (ca.SX.sym(name, joint_count) for name in ("lower", "upper", "present"))
+    *origins, tool = (ca.vertcat(pose, ca.SX(ca.DM([[0, 0, 0, 1]]))) for pose in poses)
+    z = np.array([0.0, 0.0, 1.0])
+    joints = tuple(SymbolicJoint(f"joint{k + 1}", "revolute", origin, axis=z) for k, origin in enumerate(origins))
+    limits, symbols = (ca.vertsplit(lower), ca.vertsplit(upper)), (*poses, lower, upper, present)
+    return SymbolicArm("any arm", joints, (None,) * joint_count, tool=tool, limits=limits, symbols=symbols)
 
 
 def _make_tool_transform(tool: FloatArray, open_symbols: dict[str, SX]) -> SX:

@@ -5,11 +5,11 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from base64 import b64encode
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from hashlib import sha256
 from html import escape
 from pathlib import Path
@@ -24,34 +24,22 @@ from holdfast.core.files.html import Html
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm import view
 from holdfast.interface.presentation.arm_page.phrases import format_percent, label_joints, read_texts
-from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
+from holdfast.interface.presentation.arm_page.printed_kernels import DEFAULT_LAWS, print_page_kernels
 from holdfast.interface.presentation.arm_page.start import choose_start, find_prepared, measure_fractions, simulate_story
 from holdfast.interface.report.page import Picture
 from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
 from holdfast.kernels.disk_cache import cached_json
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
 from holdfast.model import arms
+from holdfast.model.arm.formats.urdf_writing import urdf_text
 from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import Task, as_task, default_path_task
 from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
+from holdfast.studies.designs.family import make_revolute_arm
 
-STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
+GENERIC_JOINTS = 9  # of the kernels for any arm, as in arm_model.ts
 _FRAME_HEIGHT_PX = 780  # of the page in a notebook
-DEFAULT_LAWS = ("pseudoinverse", "failure-tolerant")
-
-
-@dataclass(frozen=True)
-class _ArmSection:
-    """Part of the page for one arm.
-
-    Attributes:
-        html: Picture, panel, and data.
-        kernels: JavaScript expression of the arm's kernels.
-    """
-
-    html: str
-    kernels: str
 
 
 def build_page(
@@ -76,26 +64,34 @@ def build_page(
         target: (3,) target position of the undetected lock, m. Default: that of a typical one of 400 random motions.
         task: Task of the arm; its default task if None.
         cell: Objects to draw around the arm; the page does not check for collisions with them.
-        beside: Further arms, among which a menu chooses.
+        beside: Further arms for a menu, which like ``arm`` have 6 to 9 revolute joints. They are drawn as sticks and have no
+            step for a power cut. The page then also shows URDF files of such arms that a visitor opens.
         plain: Omit the five steps.
 
     Raises:
-        InputError: Not two laws are given, or arguments do not fit the arm.
+        InputError: Not two laws are given, or arguments do not fit the arm, or an arm does not fit the menu.
     """
     if len(laws) != 2:
         raise InputError(f"laws has {len(laws)} name{'s' * (len(laws) != 1)}; the page compares two control laws")
-    for name, count in Counter([arm.name, *(other.name for other in beside)]).items():
-        if count > 1:
-            raise InputError(f"two arms have the name '{name}'; the menu needs different names")
-    texts = read_texts()
-    sections = [_build_section(arm, q, locked, laws, target, task, cell, plain)]
-    sections += [_build_section(other, None, (), laws, None, None, None, plain, hidden=True) for other in beside]
-    names = [arm.name, *(other.name for other in beside)]
-    menu = ""
-    if beside:
-        options = "".join(f"<option>{escape(name)}</option>" for name in names)
-        menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
-    return _join_page(sections, names, f"{arm.name}: which joint matters?", menu)
+    html, kernels = _build_section(arm, q, locked, laws, target, task, cell, plain)
+    if not beside:
+        return _join_page(html, kernels, f"{arm.name}: which joint matters?")
+    files: dict[str, dict[str, str]] = {}
+    for each in (arm, *beside):
+        if each.name in files:
+            raise InputError(f"two arms have the name '{each.name}'; the menu needs different names")
+        if not 6 <= each.n <= GENERIC_JOINTS or each.prismatic.any():
+            raise InputError(f"'{each.name}' does not fit into a menu; its arms need 6 to 9 revolute joints and no other ones")
+        # The page reads only the joints, so the links are left empty.
+        urdf = re.sub(r"(<link name=.*[^/])>(?s:.*?)</link>", r"\1/>", urdf_text(each))
+        files[each.name] = {"urdf": urdf, **_write_names(each)}
+    options = "".join(f"<option>{escape(name)}</option>" for name in files)
+    menu = f'<label>{read_texts()["arms"]} <select class="arm-menu">{options}</select></label>'
+    del files[arm.name]
+    page_task = as_task(arm, task or default_task(arm.name, arm))
+    shared = print_page_kernels(make_revolute_arm(GENERIC_JOINTS), page_task, () if plain else laws)
+    kernels += f"const anyArm={{kernels:{shared},files:{to_script_json(files)}}};\n{read_template('any_arm.js')}"
+    return _join_page(html, kernels, "Which joint matters?", menu)
 
 
 def build_live_picture(arm: Arm, q: ArrayLike, task: Task, cell: Cell | None = None) -> Picture:
@@ -115,21 +111,13 @@ def build_studio_page(
         HoldfastError: The arm cannot be shown.
     """
     section = _build_section(arm, q, (), DEFAULT_LAWS, None, task, cell, False, studio=studio, mesh_files=mesh_files)
-    return _join_page([section], [arm.name], f"{arm.name}: studio", script="studio.js", connect=" connect-src 'self';")
+    return _join_page(*section, f"{arm.name}: studio", script="studio.js", connect=" connect-src 'self';")
 
 
-def _join_page(
-    sections: Sequence[_ArmSection],
-    names: Sequence[str],
-    title: str,
-    menu: str = "",
-    script: str = "arm_page.js",
-    connect: str = "",
-) -> Html:
-    """Join the sections of arms to a page with a script; ``connect`` is a further directive of its content security policy."""
-    kernels = ",".join(f"{to_script_json(name)}:{section.kernels}" for name, section in zip(names, sections, strict=True))
+def _join_page(section: str, kernels: str, title: str, menu: str = "", script: str = "arm_page.js", connect: str = "") -> Html:
+    """Make a page of a section and a script; ``connect`` is a further directive of its content security policy."""
     style = read_template("viewer.css") + read_template("arm_page.css")
-    scripts = [COLOR_SCHEME_SCRIPT, f"const armKernels={{{kernels}}};\n{read_template(script).strip()}"]
+    scripts = [COLOR_SCHEME_SCRIPT, kernels + read_template(script).strip()]
     policy = (
         f"default-src 'none';{connect} script-src {' '.join(map(_policy_digest, scripts))}; "
         f"style-src-elem {_policy_digest(style)}; style-src-attr 'unsafe-inline'; img-src data:; "
@@ -141,8 +129,7 @@ def _join_page(
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n'
         f"<style>{style}</style>\n<script>{scripts[0]}</script>\n</head>\n<body>\n<main>\n"
         f'<header class="arm-header"><h1>{escape(title)}</h1>{menu}</header>\n'
-        + "\n".join(section.html for section in sections)
-        + f"\n</main>\n<script>{scripts[1]}</script>\n</body>\n</html>\n",
+        f"{section}\n</main>\n<script>{scripts[1]}</script>\n</body>\n</html>\n",
         _FRAME_HEIGHT_PX,
     )
 
@@ -160,26 +147,21 @@ def _build_section(
     task: str | Task | None,
     cell: Cell | None,
     plain: bool,
-    hidden: bool = False,
     studio: dict[str, Any] | None = None,
     mesh_files: bool = True,
-) -> _ArmSection:
+) -> tuple[str, str]:
+    """Build the picture, panel, and data of an arm, and the JavaScript statement that defines its kernels."""
     texts, page_task = read_texts(), as_task(arm, task or default_task(arm.name, arm))
     start = choose_start(arm, page_task) if q is None else arm.check_configurations(q).reshape(arm.n)
     given_target = None if target is None else np.asarray(target, dtype=np.float64).tolist()
     source = Path(simulate_story.__code__.co_filename).read_text(encoding="utf-8")
     story = None if plain else _find_story(arm, page_task, start.tolist(), list(laws), given_target, source)
     labels = label_joints(arm)
-    argument, options, _ = arms.command_words(arm)
-    argument = argument if studio is None else studio["state"]["arm"]
     fractions = measure_fractions(arm, page_task, start[None])[0]
     bound = upper_bound(n=arm.n, m=page_task.m).bound if arm.n > page_task.m else 0.0
     scene = view.scene(arm, start, locked=locked, task=page_task, cell=cell, lost=bool(len(locked)), mesh_files=mesh_files)
     data: dict[str, Any] = {
-        "name": arm.name,
-        "title": arm.title,
-        "argument": " ".join([shlex.quote(argument), *options]),
-        "pythonArm": _write_python_arm(arm, argument),
+        **_write_names(arm, None if studio is None else studio["state"]["arm"]),
         "jointLabels": labels,
         "taskRows": [round_to_seven_digits(row) for row in page_task.rows],
         "taskName": page_task.name,
@@ -191,26 +173,21 @@ def _build_section(
     }
     if studio is not None:
         data["studio"] = studio
-    bars = _write_bars(labels, fractions, bound, texts)
-    steps = "".join(
-        f'<li><button type="button" data-step="{step}">{k + 1} {escape(texts[f"step_{step}"])}</button></li>'
-        for k, step in enumerate(STEP_NAMES)
-    )
-    attributes = f'data-name="{escape(arm.name, quote=True)}" data-touched="false"{" hidden" * hidden}'
-    html = f"""<section class="arm" {attributes}>
+    html = f"""<section class="arm" data-touched="false">
 <div class="arm-picture">{scene.to_html(f"view-{arm.name}", f"{arm.title} in its configuration")}</div>
 <div class="arm-panel">
 <p class="arm-headline">{escape(texts["healthy_before"])}</p>
 <p class="arm-detail">{escape(texts["healthy_detail"])}</p>
 <p class="visually-hidden" aria-live="polite"></p>
-{bars}
-{"" if plain else f'<ol class="arm-steps" hidden>{steps}</ol><div class="step-controls"></div>'}
+{_write_bars(labels, fractions, bound, texts)}
+{"" if plain else '<ol class="arm-steps"></ol><div class="step-controls"></div>'}
 <details class="arm-commands"></details>
 </div>
 <details class="arm-about"><summary>{escape(texts["about"])}</summary><p>{escape(texts["about_text"])}</p></details>
 <div class="arm-data" hidden><script type="application/json">{to_script_json(data)}</script></div>
 </section>"""
-    return _ArmSection(html, print_page_kernels(arm, page_task, () if story is None else laws))
+    kernels = print_page_kernels(arm, page_task, () if story is None else laws)
+    return html, f"const armKernels={{{to_script_json(arm.name)}:{kernels}}};\n"
 
 
 @cached_json
@@ -224,13 +201,15 @@ def _find_story(
     return None if story is None else asdict(story)
 
 
-def _write_python_arm(arm: Arm, argument: str) -> str:
-    """Write the Python expression that loads the arm."""
-    options = {}
+def _write_names(arm: Arm, argument: str | None = None) -> dict[str, str]:
+    """Write the arm's name, the arguments of a command, and the Python expression that loads the arm."""
+    default, options, _ = arms.command_words(arm)
+    argument, choices = argument or default, {}
     if arm.chain is not None and argument != arm.name:
-        options = {"base": arm.chain.base, "tip": arm.chain.tip, "hold": dict(arm.chain.held)}
-    words = [repr(argument), *(f"{name}={value!r}" for name, value in options.items() if value)]
-    return f"hf.arms.load({', '.join(words)})"
+        choices = {"base": arm.chain.base, "tip": arm.chain.tip, "hold": dict(arm.chain.held)}
+    words = [repr(argument), *(f"{name}={value!r}" for name, value in choices.items() if value)]
+    command = " ".join([shlex.quote(argument), *options])
+    return {"name": arm.name, "argument": command, "pythonArm": f"hf.arms.load({', '.join(words)})"}
 
 
 def _write_bars(labels: Sequence[str], fractions: FloatArray, bound: float, texts: dict[str, str]) -> str:
