@@ -49,6 +49,16 @@ def test_a_moving_start_falls_further(ask, planar):
     assert data["drop_m"] > ask(*CALL)["drop_m"]
 
 
+def test_the_drop_is_that_of_any_point(ask, cli, planar):
+    data = ask(*CALL, "--of", "any point")
+    expected = hf.power_loss(planar, Q, friction=FRICTION, of="any point")
+    assert (data["of"], data["drop_m"]) == ("any point", expected.drop)
+    assert data["drop_m"] >= ask(*CALL)["drop_m"]
+    words = " ".join(cli(*CALL, "--of", "any point")[1].split())
+    assert f"A point of the arm falls {expected.drop:.3g} m within" in words
+    assert "largest drop of any point" in words
+
+
 def test_the_band_is_compared(ask, cli, planar):
     options = ("--brake-after", "20", "--brake-torque", "60", "--band")
     data = ask(*CALL, *options)
@@ -172,6 +182,7 @@ def test_the_page_shows_both_simulations(cli, tmp_path):
         ([*CALL, "--restitution", "2"], "restitution is 2"),
         ([*CALL, "--duration", "-1"], "duration is -1 s"),
         ([*CALL, "--accuracy", "0"], "accuracy is 0 m"),
+        ([*CALL, "--of", "elbow"], "of is 'elbow'; use 'tool' or 'any point'"),
         ([*CALL, "--stiction", "1"], "below its coulomb friction"),
         ([*CALL, "--radius", "0.1", "--physics"], "there is none; add --cell"),
         (["power-loss", "planar-3r"], "give one of --q, --along, and --anywhere"),

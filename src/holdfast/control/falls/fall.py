@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import FallContacts
+from holdfast.control.falls.drop_points import DropOf
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
@@ -64,7 +65,8 @@ class PowerLoss(Result):
         step: (N,) longest time step, s.
         q_final: (N, n) configurations at the end, rad and m.
         rates_final: (N, n) joint rates at the end, rad/s and m/s.
-        drop: (N,) largest displacement of the tool point along gravity within the duration, m.
+        of: ``tool``, or ``any point`` of the arm, whose drop was computed.
+        drop: (N,) largest displacement of the tool point, or of any point, along gravity within the duration, m.
         released: (N,) energy released, J: potential and kinetic energy at the power loss, minus the potential energy at the
             end. The part that is not kinetic energy at the end was dissipated.
         rest_time: (N,) time from which on all joints are at rest, s; NaN if a joint still moves.
@@ -85,6 +87,7 @@ class PowerLoss(Result):
     restitution: float
     stops: bool
     duration: float
+    of: DropOf
     step: FloatArray
     q_final: FloatArray
     rates_final: FloatArray
@@ -135,13 +138,12 @@ class PowerLoss(Result):
         return self._evaluate_at(time, lambda states: states.tool)
 
     def drop_at(self, time: ArrayLike) -> FloatArray:
-        """Return the displacements (N,) of the tool point along gravity, m, at a time, s; (N, T) for times (T,).
+        """Return the displacements (N,) along gravity, m, of the tool or of any point at a time, s; (N, T) for times (T,).
 
-        The displacement is negative where the tool is above its initial position.
+        The displacement is negative where the point is above its initial position.
         """
-        displacement = self.tool_at(time)
-        start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
-        return np.asarray((displacement - start) @ self._simulator.stepper.down)
+        q, points = self.q_at(time), self._simulator.points
+        return points.drops(self.arm, self.q.reshape(*self.q.shape[:-1], *[1] * np.ndim(time), self.arm.n), q)
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion of a single fall to ``file`` as rows every 10 ms, with the columns of a physical fall.
@@ -208,6 +210,8 @@ class PowerLoss(Result):
             duration=self.duration,
             clearance=chosen_clearance(self.arm, self.clearance if clearance is None else clearance, cell),
             step=step,
+            of=self.of,
+            points=self._simulator.points,
         )
 
     def energies_at(self, time: ArrayLike) -> tuple[FloatArray, FloatArray]:

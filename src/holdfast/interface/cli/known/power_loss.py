@@ -41,6 +41,7 @@ def command(
     ] = None,
     samples: Annotated[int, "Number of random configurations."] = 20_000,
     seed: SeedOption = 1,
+    of: Annotated[str, "Point whose drop is computed: 'tool', or 'any point' of the links that falls most."] = "tool",
     rates: Annotated[str | None, "Joint rates at the power loss in rad/s and m/s. Default: the arm is at rest."] = None,
     free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
     friction: FrictionOptions = FrictionOptions(),
@@ -74,7 +75,7 @@ def command(
         raise InputError("give one of --q, --along, and --anywhere")
     model = placement.mount_arm(chain.resolve_arm(arm))
     options: dict[str, Any] = {"free": free, "restitution": restitution, "stops": stops, "duration": duration}
-    options |= {"accuracy": accuracy, "friction": friction.read_friction(model)}
+    options |= {"accuracy": accuracy, "of": of, "friction": friction.read_friction(model)}
     options["clearance"] = touched.build_contact_clearance(model)
     delays, torques = _read_brakes(brake_after, brake_torque)
     if len(delays) > 1 or len(torques) > 1:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from holdfast.control.falls.drop_points import DropOf
 from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import format_number
@@ -29,9 +30,17 @@ def format_distance(distance: float) -> str:
     return f"{format_number(factor * distance, 3)} {unit}"
 
 
-def describe_drop(drop: float) -> str:
-    """Describe the largest drop of the tool, m."""
-    return f"The tool falls {format_distance(drop)}" if drop >= 5e-5 else "The tool does not fall"
+def name_drop(of: DropOf) -> str:
+    """Name the drop of the tool, or of any point."""
+    return "drop of the tool" if of == "tool" else "drop of any point"
+
+
+def describe_drop(fall: PowerLoss | PhysicalFall) -> str:
+    """Describe the largest drop of a single fall."""
+    drop, is_tool = float(fall.drop), fall.of == "tool"
+    if drop < 5e-5:
+        return "The tool does not fall" if is_tool else "No point of the arm falls"
+    return f"{'The tool' if is_tool else 'A point of the arm'} falls {format_distance(drop)}"
 
 
 def describe_free_joints(fall: PowerLoss | PhysicalFall) -> str:

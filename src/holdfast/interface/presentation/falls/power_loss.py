@@ -38,8 +38,7 @@ DROP_QUANTILES = (0.5, 0.9, 0.99)
 WORST_ROWS = 10
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
-_DROP_COLUMN = Header("drop of the tool", "mm", aligned=False)
-_FIGURE_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
+_FIGURE_CAPTION = "Drop, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
 def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> dict[str, Any]:
@@ -51,6 +50,7 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         "free": [names[joint] for joint in fall.free],
         **{key: dict(zip(names, values, strict=True)) for key, values in vars(fall.friction).items()},
         "outcome": fall.outcome,
+        "of": fall.of,
         "drop_m": fall.drop,
         "error_m": fall.error,
         "released_J": fall.released,
@@ -108,7 +108,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
         return f"The fall was not simulated to its end: {Status(int(fall.status)).sentence}"
     if fall.outcome == "holds":
         return "The arm stays where it is, because friction and stops hold every joint without torque"
-    answer = motion.describe_drop(float(fall.drop))
+    answer = motion.describe_drop(fall)
     if contact:
         answer += f" until {contact}"
     elif np.isfinite(fall.rest_time):
@@ -157,8 +157,9 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
     if fall.q.ndim > 1:
         quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
         return [Fact(f"largest drop in {100 * fraction:g} % of the falls", float(drop), "mm") for fraction, drop in quantiles]
+    name = f"largest {motion.name_drop(fall.of)}"
     facts = [
-        Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
+        Fact(name, 1000 * float(fall.drop), "mm", phrase=name),
         Fact("energy released", float(fall.released), "J", phrase="released until the end"),
         Fact("time to rest", float(fall.rest_time), "s", phrase="until the arm is at rest"),
         Fact("estimated error of the tool at the end", 1000 * float(fall.error), "mm", digits=2),
@@ -172,15 +173,20 @@ def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
-    columns: list[Column] = ["after", _DROP_COLUMN, Header("speed of the tool", "m/s")]
+    drop = _make_drop_header(fall)
+    columns: list[Column] = ["after", drop, Header("speed of the tool", "m/s")]
     title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
     tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
     if others:
         rows = [(label, 1000 * float(other.drop), str(other.outcome)) for label, other in others.items()]
-        columns = ["condition", _DROP_COLUMN, "outcome"]
+        columns = ["condition", drop, "outcome"]
         tables.append(TableSpec("The same state under other conditions", columns, rows))
     physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
     return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
+
+
+def _make_drop_header(fall: PowerLoss) -> Header:
+    return Header(motion.name_drop(fall.of), "mm", aligned=False)
 
 
 def _tabulate_joints(fall: PowerLoss) -> TableSpec:
@@ -199,7 +205,7 @@ def _tabulate_joints(fall: PowerLoss) -> TableSpec:
 def _tabulate_worst(fall: PowerLoss) -> TableSpec:
     columns: list[Column] = [
         "row",
-        _DROP_COLUMN,
+        _make_drop_header(fall),
         Header("energy released", "J", aligned=False),
         Header("estimated error", "mm", digits=3, aligned=False),
         "outcome",
@@ -224,7 +230,7 @@ def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
 
 
 def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
-    """Draw the drop of the tool, the energies, and the joint rates over time."""
+    """Draw the drop, the energies, and the joint rates over time."""
     arm, time = fall.arm, np.linspace(0.0, _find_end(fall), 401)
     q, rates = fall.q_at(time), fall.rates_at(time)
     released, kinetic = fall.energies_at(time)
@@ -241,7 +247,7 @@ def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
     label = f"joint rate, {' or '.join(sorted({f'{units[k]}/s' for k in fall.free}))}"
     panels = [
         report.motions.TimePanel(
-            time, 1000 * fall.drop_at(time), "drop of the tool, mm", "Tool", compared=compared[0] if compared else None
+            time, 1000 * fall.drop_at(time), f"{motion.name_drop(fall.of)}, mm", "Drop", compared=next(iter(compared), None)
         ),
         report.motions.TimePanel(time, energies, "energy, J", "Energy"),
         report.motions.TimePanel(time, speeds, label, "Joints", moments=stops),

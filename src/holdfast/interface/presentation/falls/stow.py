@@ -88,7 +88,7 @@ def _describe_stow(stow: StowPose) -> str:
     if not stow.holds:
         return (
             f"No configuration was found that holds with {format_number(stow.factor)} times the needed torque; the one with "
-            f"the smallest drop is shown. {describe_drop(float(stow.fall.drop))}."
+            f"the smallest drop is shown. {describe_drop(stow.fall)}."
         )
     return hold_check.present(stow.check).answer
 
