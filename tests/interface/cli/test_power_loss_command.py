@@ -59,6 +59,15 @@ def test_the_drop_is_that_of_any_point(ask, cli, planar):
     assert "largest drop of any point" in words
 
 
+def test_the_swept_space_is_printed_and_drawn(ask, cli, tmp_path, planar):
+    swept = hf.power_loss(planar, Q, friction=FRICTION, duration=0.3).sweep()
+    assert ask(*CALL, "--duration", "0.3", "--sweep")["sweep"]["volume_m3"] == [swept.lower_volume, swept.upper_volume]
+    code, out, _ = cli(*CALL, "--duration", "0.3", "--sweep", "--out", tmp_path)
+    assert code == 0
+    assert f"{1000 * swept.lower_volume:.3g} to {1000 * swept.upper_volume:.3g} L" in " ".join(out.split())
+    assert "Points bound the swept space" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
 def test_the_band_is_compared(ask, cli, planar):
     options = ("--brake-after", "20", "--brake-torque", "60", "--band")
     data = ask(*CALL, *options)

@@ -8,8 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.falls.fall import PowerLoss
-from holdfast.control.falls.measures import measure_fall
+from holdfast.control.falls.fall import PowerLoss, measure_fall
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,8 +28,13 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 
 if TYPE_CHECKING:
     from holdfast.control.falls.physical import PhysicalFall
+    from holdfast.control.falls.sweep import Sweep
 
+FallMeasure = Literal["drop", "released", "impact_speed", "impact_energy"]
+MEASURE_UNITS: dict[str, str] = {"drop": "m", "released": "J", "impact_speed": "m/s", "impact_energy": "J"}
 MAX_STEP_S = 0.02  # s, of all simulations of falls
+SWEEP_INSTANTS = 2001
+Falls = TypeVar("Falls", "PowerLoss", FallContacts)
 
 
 class FallOutcome(SentenceEnum):
@@ -189,20 +194,13 @@ class PowerLoss(Result):
         """
         from holdfast.control.falls.physical import simulate_contacts
 
-        rows = len(self)
-        if not (row is None and rows == 1) and not (row is not None and 0 <= row < rows):
-            raise InputError(f"row is {row}; give the number of one fall, from 0 to {rows - 1}")
         if not 0 < step <= MAX_STEP_S:
             raise InputError(f"step is {step:g} s; it must be above 0 and at most {MAX_STEP_S:g} s")
-        q, rates = (np.atleast_2d(states)[row or 0] for states in (self.q, self.rates))
-        if not np.isfinite([q, rates]).all():
-            raise InputError(
-                f"the state in row {row or 0} holds NaN or infinity, so it cannot be simulated; choose another row"
-            )
+        fall = self._select_row(row)
         return simulate_contacts(
             self.arm,
-            q,
-            rates,
+            fall.q,
+            fall.rates,
             free=self.free,
             friction=self.friction,
             brakes=self.brakes,
@@ -213,6 +211,43 @@ class PowerLoss(Result):
             of=self.of,
             points=self._simulator.points,
         )
+
+    @check_arguments
+    def sweep(self, row: int | None = None, *, voxel: float = 5e-3) -> Sweep:
+        """Compute the space that the moving links sweep during one fall, until its first contact if contacts were searched for.
+
+        Args:
+            row: Number of the fall, from 0. Default: the only one.
+            voxel: Size of the voxels, m.
+
+        Returns:
+            A :class:`holdfast.control.falls.Sweep`.
+
+        Raises:
+            InputError: A wrong row or voxel, or a collision model without moving links.
+        """
+        from holdfast.control.falls.sweep import sweep_spheres
+        from holdfast.model.collision.cover import choose_capsules
+
+        fall = self._select_row(row)
+        contact_time = np.nan if fall.contacts is None else fall.contacts.time
+        q = fall.q_at(np.linspace(0.0, np.nanmin([self.duration, fall.rest_time, contact_time]), SWEEP_INSTANTS))
+        if not np.isfinite(q).all():
+            raise InputError(f"the fall in row {row or 0} could not be simulated, so its sweep is unknown; choose another row")
+        capsules = choose_capsules(self.arm) if self.clearance is None else self.clearance.capsules
+        return sweep_spheres(self.arm, capsules, q, voxel)
+
+    def _select_row(self, row: int | None) -> PowerLoss:
+        """Return the fall of one row, which has a finite state."""
+        rows = len(self)
+        if not (row is None and rows == 1) and not (row is not None and 0 <= row < rows):
+            raise InputError(f"row is {row}; give the number of one fall, from 0 to {rows - 1}")
+        fall = self if self.q.ndim == 1 else _take_row(self, row or 0)
+        if not np.isfinite([fall.q, fall.rates]).all():
+            raise InputError(
+                f"the state in row {row or 0} holds NaN or infinity, so it cannot be simulated; choose another row"
+            )
+        return fall
 
     def energies_at(self, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the energy released and the kinetic energy (T,), J, of a single fall at times (T,), s."""
@@ -245,3 +280,24 @@ class PowerLoss(Result):
         values = np.full((len(q), repeat, selected.shape[1]), np.nan)
         values[rows] = selected.reshape(count, repeat, selected.shape[1])
         return values.reshape(*self.q.shape[:-1], *times.shape, selected.shape[1])
+
+
+def measure_fall(fall: PowerLoss, measure: FallMeasure) -> FloatArray:
+    """Return a measure (N,) of each fall: its drop, its released energy, or the speed or energy of its first contact.
+
+    Speed and energy are NaN for a fall without contact.
+    """
+    if measure in ("drop", "released"):
+        return np.asarray(getattr(fall, measure))
+    if fall.contacts is None:
+        return np.full(np.shape(fall.drop), np.nan)
+    return fall.contacts.normal_speed if measure == "impact_speed" else fall.contacts.energy_lost
+
+
+def _take_row(falls: Falls, row: int) -> Falls:
+    """Return the part of a result, or of its contacts, that belongs to one fall."""
+    values = {each.name: getattr(falls, each.name) for each in fields(falls)}
+    parts: dict[str, Any] = {name: value[row] for name, value in values.items() if isinstance(value, np.ndarray)}
+    if isinstance(falls, PowerLoss) and falls.contacts is not None:
+        parts["contacts"] = _take_row(falls.contacts, row)
+    return replace(falls, **parts)

@@ -55,6 +55,7 @@ def command(
     accuracy: Annotated[float | None, "Largest estimated error of the tool in m. Default: no limit, steps of 2 ms."] = None,
     band: Annotated[bool, "Also simulate without friction and with twice the friction."] = False,
     physics: Annotated[bool, "Also simulate in MuJoCo, beyond the first contact (needs the extra 'physics')."] = False,
+    sweep: Annotated[bool, "Also compute the space that the links sweep during the fall from --q."] = False,
     touched: ContactOptions = ContactOptions(),
     placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
@@ -113,6 +114,8 @@ def command(
         "compared": {"in MuJoCo": fall.physical(clearance=options["clearance"])} if physics else {},
         "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
     }
+    if sweep:
+        others["sweep"] = fall.sweep()
     print_result(fall, json_, [*files, *write_outputs(fall, plot, out, **others)], **others)
 
 

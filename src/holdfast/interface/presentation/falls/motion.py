@@ -60,17 +60,20 @@ def list_friction(fall: PowerLoss | PhysicalFall) -> list[tuple[str, str]]:
     return [(label, numbers[0] if len(set(numbers)) == 1 else ", ".join(numbers)) for label, numbers in texts.items()]
 
 
-def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray) -> Section:
-    """Build the view of motions (F, n) over times (F,), the first opaque, next to a ghost at the power loss."""
+def build_film(
+    fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray, swept: FloatArray | None = None
+) -> Section:
+    """Build the view of motions (F, n) over times (F,), the first opaque, a ghost at the power loss, and swept points."""
     shown = {**motions, "at the power loss": np.tile(np.atleast_2d(fall.q)[0], (len(time), 1))}
     return build_view_section(
         "The fall",
         fall.arm,
         np.array(list(shown.values())),
-        "The simulated fall, and the arm at the power loss.",
+        f"The simulated fall, and the arm at the power loss.{'' if swept is None else ' Points bound the swept space.'}",
         labels=list(shown),
         free=fall.free if len(fall.free) < fall.arm.n else (),
         time=time,
         readings=[f"{instant:.2f} s" for instant in time],
         cell=fall.cell,
+        points=swept,
     )

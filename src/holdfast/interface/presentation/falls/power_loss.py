@@ -10,6 +10,7 @@ import numpy as np
 
 from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
+from holdfast.control.falls.sweep import Sweep
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.core.status import Status
 from holdfast.interface import report
@@ -36,13 +37,16 @@ CHECKED_TIMES_S = (0.05, 0.1, 0.2, 0.5)
 START_S = 1e-3  # duration over which the initial accelerations are measured
 DROP_QUANTILES = (0.5, 0.9, 0.99)
 WORST_ROWS = 10
+MOST_SHOWN_POINTS = 1000  # of the surface of the sweep
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
 _FIGURE_CAPTION = "Drop, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
-def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> dict[str, Any]:
-    """Return the numbers of every fall, the drops of a single fall over time, and the falls under other conditions."""
+def to_dict(
+    fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = (), sweep: Sweep | None = None
+) -> dict[str, Any]:
+    """Return the numbers of every fall, the drops of a single fall over time, other conditions, and the swept space."""
     names, others = fall.arm.joint_names, _name_others(compared, band)
     times = _list_checked_times(fall)
     return {
@@ -61,14 +65,23 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         if fall.q.ndim == 1
         else None,
         "compared": {label: other.to_dict() for label, other in others.items()},
+        "sweep": None
+        if sweep is None
+        else {
+            "voxel_m": sweep.voxel,
+            "volume_m3": [sweep.lower_volume, sweep.upper_volume],
+            "boxes_m": dict(zip(sweep.links, sweep.boxes, strict=True)),
+        },
     }
 
 
-def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> Presentation:
+def present(
+    fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = (), sweep: Sweep | None = None
+) -> Presentation:
     """Present the fall, or the distribution of several falls.
 
     ``compared`` are falls from the same state under other conditions, by the name of the condition, and ``band`` without
-    friction and with twice the friction.
+    friction and with twice the friction. ``sweep`` is the space that this fall sweeps.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
     is_falling = single and fall.outcome not in ("holds", "unknown")
@@ -81,10 +94,10 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
             *_list_notices(fall),
             *[Notice(f"{capitalise_first(contacts[0].sentence())}.", title="MuJoCo") for contacts in touching],
         ],
-        facts=_list_facts(fall),
+        facts=_list_facts(fall, sweep),
         tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
         figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if is_falling else {},
-        sections=partial(_animate_fall, fall, others) if is_falling else tuple,
+        sections=partial(_animate_fall, fall, others, sweep) if is_falling else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
             *motion.list_friction(fall),
@@ -152,7 +165,7 @@ def _list_notices(fall: PowerLoss) -> list[Notice]:
     return notices
 
 
-def _list_facts(fall: PowerLoss) -> list[Fact]:
+def _list_facts(fall: PowerLoss, sweep: Sweep | None) -> list[Fact]:
     drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
     if fall.q.ndim > 1:
         quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
@@ -164,7 +177,12 @@ def _list_facts(fall: PowerLoss) -> list[Fact]:
         Fact("time to rest", float(fall.rest_time), "s", phrase="until the arm is at rest"),
         Fact("estimated error of the tool at the end", 1000 * float(fall.error), "mm", digits=2),
     ]
-    return [fact for fact in facts if np.isfinite(fact.value)]
+    facts = [fact for fact in facts if np.isfinite(fact.value)]
+    if sweep is not None:
+        volumes = " to ".join(format_number(1000 * volume, 3) for volume in (sweep.lower_volume, sweep.upper_volume))
+        size = " x ".join(format_number(float(edge), 3) for edge in np.diff(sweep.box, axis=0)[0])
+        facts += [Fact("volume that the links sweep", f"{volumes} L"), Fact("box around the sweep", f"{size} m")]
+    return facts
 
 
 def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
@@ -220,13 +238,14 @@ def _find_end(fall: PowerLoss) -> float:
     return fall.duration if not fall.rest_time > 0 else min(1.2 * float(fall.rest_time), fall.duration)
 
 
-def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
+def _animate_fall(fall: PowerLoss, others: Others, sweep: Sweep | None) -> list[Section]:
     time = np.linspace(0.0, _find_end(fall), motion.FILM_FRAMES)
     motions = {"fall": fall.q_at(time)}
     for label, other in others.items():
         if isinstance(other, PhysicalFall):
             motions[label] = np.stack([np.interp(time, other.time, values) for values in other.q.T], axis=1)
-    return [motion.build_film(fall, motions, time)]
+    points = None if sweep is None else sweep.surface[:: 1 + len(sweep.surface) // MOST_SHOWN_POINTS]
+    return [motion.build_film(fall, motions, time, points)]
 
 
 def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
