@@ -42,6 +42,22 @@ def test_json_is_the_answer_of_the_library(ask, planar):
     assert (data["outcome"], data["compared"]) == ("rest", {})
 
 
+def test_a_friction_file_has_brakes_and_boards(ask, cli, tmp_path, planar):
+    file = tmp_path / "friction.yaml"
+    file.write_text("joint2: {coulomb: 1, brake: 30}\njoint3: {coulomb: 1, brake: 20}\nboards: {far: [joint2, joint3]}\n")
+    call = ["power-loss", "planar-3r", "--q", "10 20 30", "--degrees", "--friction", file, "--free", "board:far"]
+    friction, brakes = hf.Friction.from_file(file, planar), hf.Brakes(after=0.1, torque=[0, 30, 20])
+    data = ask(*call, "--brake-after", "100", "--band")
+    expected = hf.power_loss(planar, Q, free=[1, 2], friction=friction, brakes=brakes)
+    assert (data["free"], data["drop_m"]) == (["joint2", "joint3"], expected.drop)
+    compared = ask(*call, "--brake-after", "50", "--brake-after", "100")
+    assert compared["torque"] == [[0, 30, 20]]
+    code, out, err = cli(*call[:-1], "board:near")
+    assert (code, out) == (2, "")
+    assert err == "holdfast: board 'near' is unknown; the boards of the friction are far\n"
+    assert json.loads(cli("holds", *call[1:], "--json")[1])["free"] == ["joint2", "joint3"]
+
+
 def test_a_moving_start_falls_further(ask, planar):
     rates = np.radians([-20.0, 0, 0])
     data = ask(*CALL, "--rates", "-20 0 0")

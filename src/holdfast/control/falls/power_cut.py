@@ -66,7 +66,7 @@ def power_loss(
             limit starts at the limit.
         rates: (n,) or (N, n) joint rates at the power loss, rad/s and m/s. Default: all joints are at rest.
         free: Joints that lose their torque: names and indices from 0, or one text with names and numbers from 1 between
-            commas. Default: all joints.
+            commas, and ``board:NAME`` for a board of the friction. Default: all joints.
         friction: Friction of the joints. Default: as the arm states.
         brakes: Brakes of the joints in ``free``. Default: none.
         restitution: Ratio of the speeds of a joint after and before it hits its stop, 0 to 1.
@@ -92,7 +92,7 @@ def power_loss(
     Source: Moreau 1988 for the steps with dry friction and impacts.
     """
     starts, start_rates, is_single = _check_states(arm, q, rates)
-    joints = read_joint_set(arm, free)
+    joints = read_joint_set(arm, free, None if friction is None else friction.boards)
     _check_options(restitution, duration, step, accuracy)
     require_possible_inertia(arm)
     is_free = np.zeros(arm.n)

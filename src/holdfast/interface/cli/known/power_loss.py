@@ -13,6 +13,7 @@ from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions, Fric
 from holdfast.interface.cli.options import (
     ArmArgument,
     DegreesOption,
+    FreeOption,
     JsonOption,
     MotionCsvOption,
     OutOption,
@@ -43,11 +44,12 @@ def command(
     seed: SeedOption = 1,
     of: Annotated[str, "Point whose drop is computed: 'tool', or 'any point' of the links that falls most."] = "tool",
     rates: Annotated[str | None, "Joint rates at the power loss in rad/s and m/s. Default: the arm is at rest."] = None,
-    free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
+    free: FreeOption = None,
     friction: FrictionOptions = FrictionOptions(),
     brake_after: Annotated[list[float] | None, "Delay of the brakes in ms. Repeatable, to compare delays."] = None,
     brake_torque: Annotated[
-        list[str] | None, "Torque of the brakes in N m (N): one number or one per joint. Repeatable, to compare torques."
+        list[str] | None,
+        "Torque of the brakes in N m (N): one number or one per joint. Repeatable, to compare torques. Default: --friction.",
     ] = None,
     restitution: Annotated[float, "Ratio of the joint speeds after and before the impact on a stop, 0 to 1."] = 0.0,
     stops: Annotated[bool, typer.Option("--stops/--no-stops", help="Let the joint limits stop the joints.")] = True,
@@ -78,7 +80,7 @@ def command(
     options: dict[str, Any] = {"free": free, "restitution": restitution, "stops": stops, "duration": duration}
     options |= {"accuracy": accuracy, "of": of, "friction": friction.read_friction(model)}
     options["clearance"] = touched.build_contact_clearance(model)
-    delays, torques = _read_brakes(brake_after, brake_torque)
+    delays, torques = _read_brakes(model, brake_after, brake_torque, friction.friction)
     if len(delays) > 1 or len(torques) > 1:
         if q is None:
             raise InputError("several brakes are compared in one configuration; give --q")
@@ -109,6 +111,7 @@ def command(
     fall = hf.power_loss(model, start, **options)
     files = [] if csv is None else [fall.to_csv(csv)]
     factors = (0, 2) if band else ()
+    options["free"] = fall.free
     frictions = [hf.Friction(**{name: factor * values for name, values in vars(fall.friction).items()}) for factor in factors]
     others: dict[str, Any] = {
         "compared": {"in MuJoCo": fall.physical(clearance=options["clearance"])} if physics else {},
@@ -119,8 +122,12 @@ def command(
     print_result(fall, json_, [*files, *write_outputs(fall, plot, out, **others)], **others)
 
 
-def _read_brakes(after: list[float] | None, torque: list[str] | None) -> tuple[list[float], list[Any]]:
-    """Return the delays, s, and the torques of the brakes to compare; empty without brakes."""
+def _read_brakes(
+    arm: hf.Arm, after: list[float] | None, torque: list[str] | None, file: Path | None
+) -> tuple[list[float], list[Any]]:
+    """Return the delays, s, and the torques of the brakes to compare, from a friction file by default; empty without brakes."""
+    if after is not None and torque is None and file is not None:
+        return [delay / 1000 for delay in after], [hf.Brakes.from_file(file, arm, 0.0).torque]
     if (after is None) != (torque is None):
         raise InputError("--brake-after and --brake-torque describe brakes together; give both")
     numbers = [read_numbers("--brake-torque", text, "one number or one per joint") for text in torque or []]
