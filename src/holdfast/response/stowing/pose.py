@@ -53,8 +53,8 @@ class StowPose(Result):
         duration: Time of the straight motion from ``at`` at the speed limits, s; None without ``at``.
         fall: Fall from ``q``, until the first contact if contacts are checked. If no configuration holds, its drop is that of
             any point.
-        resting: Fall from ``q`` in MuJoCo to rest in contact with an object of the cell or with itself. This is one simulation,
-            not a proof. None if a configuration holds, without objects or MuJoCo, or if no simulated fall comes to rest.
+        resting: Fall from ``q`` in MuJoCo, after which the arm lies still. This is one simulation, not a proof. None if a
+            configuration holds, without objects or MuJoCo, or if the arm moves on after every simulated fall.
         found: Number of the best 200 candidates, all free of collisions, that hold with the factor.
         samples: Number of configurations that were sampled.
         friction: Friction as requested; None as the arm states.
@@ -108,8 +108,8 @@ def stow(
     with the largest surplus of friction in its weakest joint, N m.
 
     If no configuration holds, it returns the one in which any point drops least until the first contact. With objects and with
-    ``holdfast-arms[physics]``, 20 such falls are also simulated in MuJoCo with contacts, and the one with the smallest drop of
-    those that come to rest is returned.
+    ``holdfast-arms[physics]``, 20 such falls are also simulated in MuJoCo with contacts. Of those after which the arm lies still,
+    the one with the smallest drop is returned.
 
     Args:
         arm: The arm, with inertial data for every link.
@@ -209,7 +209,7 @@ def stow(
 def _find_resting(
     arm: Arm, q: FloatArray, friction: Friction | None, clearance: Clearance | None
 ) -> tuple[FloatArray, PhysicalFall | None]:
-    """Return the configuration of q (N, n) in which the arm drops least, and its fall in MuJoCo if that comes to rest."""
+    """Return the configuration of q (N, n) in which the arm drops least, and its fall in MuJoCo if the arm lies still then."""
     falls = power_loss(arm, q, friction=friction, clearance=clearance, step=4e-3, of="any point")
     order = np.argsort(np.where(falls.status == Status.OK, falls.drop, np.inf))
     resting: list[PhysicalFall] = []

@@ -15,8 +15,6 @@ from holdfast.interface.report.page import Section
 from holdfast.response.stowing.path import StowPath
 from holdfast.response.stowing.pose import RESTING_RUNS, StowPose
 
-_WARNINGS = ("Friction and stops do not hold the arm.", "The arm falls from this configuration without power.")
-
 
 def to_dict(result: StowPose | StowPath) -> dict[str, Any]:
     """Return the stow configuration with its margins, and the path with its drops."""
@@ -68,7 +66,7 @@ def present(result: StowPose | StowPath) -> Presentation:
         about=f"Arm {arm.title}. Configuration {configuration}",
         notices=[
             *check.notices,
-            *([] if stow.holds else [Notice(_WARNINGS[stow.resting is None], "bad")]),
+            *([] if stow.holds else [Notice("Friction and stops do not hold the arm in this configuration.", "bad")]),
         ],
         facts=[
             *check.facts,
