@@ -108,8 +108,8 @@ def stow(
     with the largest surplus of friction in its weakest joint, N m.
 
     If no configuration holds, it returns the one in which any point drops least until the first contact. With objects and with
-    ``holdfast-arms[physics]``, 20 such falls are also simulated in MuJoCo with contacts. Of those after which the arm lies still,
-    the one with the smallest drop is returned.
+    ``holdfast-arms[physics]``, 20 such falls are also simulated in MuJoCo with contacts. Of those after which the arm lies
+    still, the one with the smallest drop is returned.
 
     Args:
         arm: The arm, with inertial data for every link.
