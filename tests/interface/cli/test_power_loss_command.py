@@ -216,6 +216,8 @@ def test_the_page_shows_both_simulations(cli, tmp_path):
         (["power-loss", "planar-3r", "--anywhere", "--below", "0"], "below is 0"),
         (["power-loss", "planar-3r", "--anywhere", "--below", "1", "--measure", "fun"], "measure is"),
         (["power-loss", "planar-3r", "--along", "/nowhere.csv"], "/nowhere.csv"),
+        (["power-loss", "planar-3r", "--anywhere", "--below", "1", "--sweep"], "describe one fall; give --q"),
+        ([*CALL, "--brake-after", "1", "--brake-after", "2", "--brake-torque", "3", "--band"], "and at most one brake"),
         ([*CALL[:1], "planar-3r", "--anywhere", "--brake-after", "1", "--brake-after", "2", "--brake-torque", "3"], "give --q"),
         ([*CALL, "--csv", "/nowhere/motion.csv"], "cannot write motion"),
         ([*CALL, "--plot", "/nowhere/motion.png"], "cannot write picture"),

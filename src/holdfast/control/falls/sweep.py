@@ -48,6 +48,8 @@ class Sweep:
 @reports_progress("computing the swept space")
 def sweep_spheres(arm: Arm, capsules: Capsules, q: FloatArray, voxel: float) -> Sweep:
     """Compute the space that the links sweep along configurations (T, n); see :meth:`holdfast.PowerLoss.sweep`."""
+    from scipy.ndimage import binary_erosion
+
     if not (np.isfinite(voxel) and voxel > 0):
         raise InputError(f"voxel is {voxel:g} m; it must be a finite number above 0")
     cover = make_sphere_cover(capsules)
@@ -68,19 +70,13 @@ def sweep_spheres(arm: Arm, capsules: Capsules, q: FloatArray, voxel: float) -> 
         raise InputError(f"voxel is {voxel:g} m, too small for this sweep; give at least {smallest:.2g} m")
     rows = np.column_stack([(centers[spheres] - origin) / voxel, radius[spheres[1]] / voxel, margins / voxel])
     inside, touched = (_mark_voxels(rows, shape, is_outer) for is_outer in (False, True))
-    core = touched[1:-1, 1:-1, 1:-1].copy()
-    for axis in range(3):
-        for shift in (1, -1):
-            core &= np.roll(touched, shift, axis)[1:-1, 1:-1, 1:-1]
-    boundary = touched.copy()
-    boundary[1:-1, 1:-1, 1:-1] &= ~core
     return Sweep(
         voxel=float(voxel),
         lower_volume=float(np.count_nonzero(inside) * voxel**3),
         upper_volume=float(np.count_nonzero(touched) * voxel**3),
         links=tuple(arm.joint_names[k] for k in links),
         boxes=boxes,
-        surface=origin + voxel * (np.argwhere(boundary) + 0.5),
+        surface=origin + voxel * (np.argwhere(touched & ~binary_erosion(touched)) + 0.5),
     )
 
 

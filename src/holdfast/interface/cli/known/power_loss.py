@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
@@ -81,45 +81,41 @@ def command(
     options |= {"accuracy": accuracy, "of": of, "friction": friction.read_friction(model)}
     options["clearance"] = touched.build_contact_clearance(model)
     delays, torques = _read_brakes(model, brake_after, brake_torque, friction.friction)
-    if len(delays) > 1 or len(torques) > 1:
-        if q is None:
-            raise InputError("several brakes are compared in one configuration; give --q")
-        start_rates = None if rates is None else read_configuration(model, rates, degrees, "--rates")
-        compared = hf.compare_brakes(
-            model, read_configuration(model, q, degrees), start_rates, torque=torques, after=delays, **options
-        )
-        print_result(compared, json_, write_outputs(compared, plot, out))
-        return
-    if delays:
+    result: Any
+    others: dict[str, Any] = {}
+    files: list[Path] = []
+    has_several_brakes = len(delays) > 1 or len(torques) > 1
+    if (csv is not None or band or physics or sweep) and (q is None or has_several_brakes):
+        raise InputError("--csv, --band, --physics, and --sweep describe one fall; give --q, and at most one brake")
+    if delays and not has_several_brakes:
         options["brakes"] = hf.Brakes(after=delays[0], torque=torques[0])
-    if along is not None:
+    if q is not None:
+        start = read_configuration(model, q, degrees)
+        options["rates"] = None if rates is None else read_configuration(model, rates, degrees, "--rates")
+    if q is not None and has_several_brakes:
+        result = hf.compare_brakes(model, start, torque=torques, after=delays, **options)
+    elif has_several_brakes:
+        raise InputError("several brakes are compared in one configuration; give --q")
+    elif along is not None:
         time, motion = _read_motion(model, along, episode)
-        curve = hf.power_loss_along(model, motion, time, **options)
-        print_result(curve, json_, write_outputs(curve, plot, out))
-        return
-    if anywhere:
+        result = hf.power_loss_along(model, motion, time, **options)
+    elif anywhere:
         if below is None:
             raise InputError("--anywhere estimates the probability of a limit; give --below")
-        where = None if region is None else hf.Region.load(region)
-        choice: Any = measure
-        chance = hf.power_loss_probability(model, below, measure=choice, where=where, samples=samples, seed=seed, **options)
-        print_result(chance, json_, write_outputs(chance, plot, out))
-        return
-    assert q is not None
-    options["rates"] = None if rates is None else read_configuration(model, rates, degrees, "--rates")
-    start = read_configuration(model, q, degrees)
-    fall = hf.power_loss(model, start, **options)
-    files = [] if csv is None else [fall.to_csv(csv)]
-    factors = (0, 2) if band else ()
-    options["free"] = fall.free
-    frictions = [hf.Friction(**{name: factor * values for name, values in vars(fall.friction).items()}) for factor in factors]
-    others: dict[str, Any] = {
-        "compared": {"in MuJoCo": fall.physical(clearance=options["clearance"])} if physics else {},
-        "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
-    }
-    if sweep:
-        others["sweep"] = fall.sweep()
-    print_result(fall, json_, [*files, *write_outputs(fall, plot, out, **others)], **others)
+        where, choice = None if region is None else hf.Region.load(region), cast(Any, measure)
+        result = hf.power_loss_probability(model, below, measure=choice, where=where, samples=samples, seed=seed, **options)
+    else:
+        result = hf.power_loss(model, start, **options)
+        files += [] if csv is None else [result.to_csv(csv)]
+        values = vars(result.friction)
+        frictions = [hf.Friction(**{name: factor * values[name] for name in values}) for factor in (0, 2) if band]
+        options["free"] = result.free
+        others = {
+            "compared": {"in MuJoCo": result.physical(clearance=options["clearance"])} if physics else {},
+            "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
+            "sweep": result.sweep() if sweep else None,
+        }
+    print_result(result, json_, [*files, *write_outputs(result, plot, out, **others)], **others)
 
 
 def _read_brakes(
