@@ -50,9 +50,23 @@ def test_a_fall_onto_a_floor_sweeps_the_way_to_the_contact():
 
 
 def test_a_rebound_between_two_instants_is_swept():
-    heights = np.concatenate([np.linspace(1, 0.01, 100), np.linspace(0.01, 1, 100)])[:, None]  # its lowest point is 0
+    heights = np.concatenate([np.linspace(1, 0.005, 100), np.linspace(0.005, 1, 100)])[:, None]  # it rebounds at 0
     swept = sweep.sweep_spheres(lift(), ball(lift(), (0, 0, 0), radius=0.02).capsules, heights, 2e-3)
     assert swept.upper_volume > np.pi * 0.02**2 * 1.0 + 4 / 3 * np.pi * 0.02**3
+    assert swept.surface[:, 2].min() < -0.018  # the ball reaches to -0.02, and to -0.015 at the instants
+
+
+@pytest.mark.parametrize("heights", [[0.0, 0.0], [0.0, 0.0013, 0.004], [0.0, 0.03, 0.05]])
+def test_voxels_are_counted_as_by_the_distances_of_their_corners(heights):
+    voxel, radius = 0.01, 0.028
+    swept = sweep.sweep_spheres(lift(), ball(lift(), (0, 0, 0), radius=radius).capsules, np.array(heights)[:, None], voxel)
+    centers = swept.surface[0] + voxel * np.stack(np.meshgrid(*[np.arange(-25, 25)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    offsets = np.abs(centers[None] - np.array([[0, 0, height] for height in heights])[:, None])
+    inside = (np.linalg.norm(offsets + voxel / 2, axis=2) <= radius).any(axis=0).sum()
+    touched = (np.linalg.norm(np.maximum(offsets - voxel / 2, 0), axis=2) < radius).any(axis=0).sum()
+    lower, upper = round(swept.lower_volume / voxel**3), round(swept.upper_volume / voxel**3)
+    assert lower == inside
+    assert upper == touched if heights[1] == 0 else upper >= touched
 
 
 @pytest.mark.parametrize("types", ["RRR", "RPR"])

@@ -38,9 +38,8 @@ class PassiveArm:
         self.arm, self.points = arm, points or DropPoints.choose(arm)
         self.made_of: object = arm, self.points
         sizes = dict.fromkeys(("free", "coulomb", "stiction", "load", "viscous", "brake_torque", "brake_damping"), arm.n)
-        sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1) | {
-            "start_depth": len(self.points.links)
-        }
+        sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1)
+        sizes["start_depth"] = len(self.points.links)
         self.symbols = {name: ca.SX.sym(name, size) for name, size in sizes.items()}
         self.parameters = ParameterLayout(**self.symbols)
 
