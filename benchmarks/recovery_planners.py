@@ -7,6 +7,7 @@ The suite is that of ``python -m benchmarks.planners``. ``--suite FOLDER`` shows
 from __future__ import annotations
 
 import argparse
+import csv
 import json
 import os
 import subprocess
@@ -41,17 +42,16 @@ def suite(chosen: argparse.Namespace) -> str:
         planners = chosen.planner or PLANNERS
         panda = hf.arms.load("panda")
         found = [fail_active(panda, folder, cell=CELL, cases=cases, tasks=chosen.task, planners=planners)]
-        if chosen.before:
-            found.append(FailActive(hf.sweeps.Study.open(before(chosen, folder, cases))))
     lines = []
-    for k, s in ((k, score) for k, one in enumerate(found) for score in one.scores):
-        named = f"{s.method} of {chosen.before}" if chosen.before and k == 1 else s.method
+    for s in (score for one in found for score in one.scores):
         feasible, (middle, late) = s.success_of_feasible, np.quantile(s.processor, [0.5, 0.95])
         counts = (s.cases, s.solved, s.proved, s.within, s.argued, s.undecided, s.refused, s.contradictions)
         lines.append(
-            f"| {s.task}{', cell' * s.in_cell} | {named} | {' | '.join(map(str, counts))} | "
+            f"| {s.task}{', cell' * s.in_cell} | {s.method} | {' | '.join(map(str, counts))} | "
             f"{'' if feasible is None else feasible} | {middle:.2g} | {late:.2g} | {s.processor.max():.2g} |"
         )
+    if chosen.before and not chosen.suite:
+        lines += rows_before(chosen, folder, cases)
     return (
         "### W16 F: a degraded Panda finishes its task\n\n"
         "Seed 1; cases, cell and tolerances: `python -m benchmarks.planners`. A contradiction is a case solved within 1 mm and "
@@ -62,8 +62,8 @@ def suite(chosen: argparse.Namespace) -> str:
     )
 
 
-def before(chosen: argparse.Namespace, folder: str, cases: int) -> str:
-    """The folder of a suite that another checkout has run; its cases are those of ``folder``."""
+def rows_before(chosen: argparse.Namespace, folder: str, cases: int) -> list[str]:
+    """Rows of the table for another checkout, which runs the cases of ``folder``; its scores.csv has no longest time."""
     other = tempfile.mkdtemp(prefix="fail-active-before-")
     tasks = [word for task in chosen.task or () for word in ("--task", task)]
     checkout = Path(chosen.before).resolve()
@@ -79,7 +79,14 @@ def before(chosen: argparse.Namespace, folder: str, cases: int) -> str:
     digests = [{json.loads(line)["digest"] for line in (Path(x) / "cases.jsonl").open()} for x in (folder, other)]
     if digests[0] != digests[1]:
         sys.exit("the other checkout draws other cases")
-    return other
+    counts = ("cases", "solved", "proved", "within", "argued", "undecided", "refused", "contradictions")
+    with (Path(other) / "scores.csv").open() as file:
+        return [
+            f"| {row['task']}{', cell' * (row['in_cell'] == 'True')} | {row['planner']} of {chosen.before} | "
+            f"{' | '.join(row[name] for name in counts)} | {float(row['success_of_feasible']):.4f} | "
+            f"{float(row['processor_median']):.2g} | {float(row['processor_95']):.2g} | |"
+            for row in csv.DictReader(file)
+        ]
 
 
 def proofs(chosen: argparse.Namespace) -> str:

@@ -41,6 +41,7 @@ KEPT = (
     "side_by_side",
     "compile_times",
     "agreement_closed_loop",
+    "arm_page_numbers",
 )  # sections of programs that run_all.py does not run
 
 INTRODUCTION = """# Results

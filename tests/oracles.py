@@ -288,8 +288,8 @@ def condition(j: np.ndarray) -> np.ndarray:
         return s[..., 0] / s[..., -1]
 
 
-def rho_long(j: np.ndarray) -> np.ndarray:
-    """rho (n,) of one long double Jacobian (m, n): Gram-Schmidt twice over, then the rows of a null-space basis."""
+def orthonormal_long(j: np.ndarray) -> np.ndarray:
+    """Orthonormal rows (n, n) by repeated Gram-Schmidt: those of a long double matrix (m, n), then those of its null space."""
     m, n = j.shape
     basis: list[np.ndarray] = []
     for v in [*j, *np.random.default_rng(0).normal(size=(n - m, n)).astype(j.dtype)]:
@@ -298,7 +298,25 @@ def rho_long(j: np.ndarray) -> np.ndarray:
                 v = v - (v @ b) * b
             v = v / np.sqrt(v @ v)
         basis.append(v)
-    return np.sqrt((np.array(basis[m:]) ** 2).sum(axis=0))
+    return np.array(basis)
+
+
+def rho_long(j: np.ndarray) -> np.ndarray:
+    """rho (n,) of one long double Jacobian (m, n): the norms of the rows of a null-space basis."""
+    return np.sqrt((orthonormal_long(j)[len(j) :] ** 2).sum(axis=0))
+
+
+def lost_motions_long(j: np.ndarray, locked: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+    """Remaining fractions (k,) of locked joints for one long double Jacobian (m, n), and their directions (k, m)."""
+    m = len(j)
+    basis = orthonormal_long(j)
+    left, fractions, _ = np.linalg.svd(basis[m:, locked].T.astype(float))
+    count = min(m, len(locked))
+    fractions = np.append(fractions, np.zeros(len(locked) - len(fractions)))[::-1][:count]
+    lower, motions = j @ basis[:m].T, basis[:m, locked] @ left[:, ::-1][:, :count]
+    for i in reversed(range(m)):  # solve lower' x = motions in place, which NumPy does only in double
+        motions[i] = (motions[i] - lower[i + 1 :, i] @ motions[i + 1 :]) / lower[i, i]
+    return fractions, motions.T
 
 
 def slope(function, q: np.ndarray, h: float = 2e-4) -> np.ndarray:

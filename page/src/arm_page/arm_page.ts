@@ -16,7 +16,7 @@ import { PageView } from "./page_view";
 import { fillText, formatPercent, joinNames } from "./phrases";
 import { PoseHandle, type HandleActions } from "./pose_handle";
 import type { Step, StepClasses } from "./steps";
-import { reachTarget, searchTarget } from "./tool_drag";
+import { followTarget, searchTarget } from "./tool_drag";
 
 const REST_MS = 400; // without change, until the page reports a state and computes what takes long
 
@@ -172,7 +172,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
   // ---- dragging ----------------------------------------------------------------------------------------------------
 
   private moveTool(target: Pose): void {
-    const found = reachTarget(this.arm, this.state.q, target, this.arm.freeJoints(this.failed));
+    const found = followTarget(this.arm, this.state.q, target, this.arm.freeJoints(this.failed));
     this.state.q = [...found.configuration];
     this.target = found.reached ? null : target;
     this.update();

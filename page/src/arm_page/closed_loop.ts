@@ -2,13 +2,25 @@
 
 import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
-import { addScaled, dotProduct, stepRungeKutta, vectorNorm } from "./small_matrices";
+import { addScaled, combineRows, dotProduct, vectorNorm } from "./small_matrices";
 
 const CONTROL_STEP_S = 0.02;
 const DURATION_S = 12;
-/** Largest difference between a step and its halves, rad and m, and a step that is not halved again. */
-const STEP_ERROR = 1e-7;
-const SHORTEST_STEP_S = 2e-4;
+/** Largest estimated error of a step, rad and m; a step with a larger error is halved. */
+const STEP_ERROR = 1e-10;
+const SHORTEST_STEP_S = 1e-5;
+/** Largest number of halved steps in a motion, which a law that switches back and forth reaches. */
+const MAX_HALVINGS = 1000;
+/** Method of order 5 (Dormand and Prince 1980): weights of the rates before each stage, and of the error estimate. */
+const STAGES = [
+  [1 / 5],
+  [3 / 40, 9 / 40],
+  [44 / 45, -56 / 15, 32 / 9],
+  [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729],
+  [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656],
+  [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+];
+const ERRORS = [71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40];
 /** Distance from the target at which the motion ends, m. */
 const END_M = 0.001;
 
@@ -44,6 +56,23 @@ export function simulateControl(
     const gain = Math.min(settings.gain, settings.speed / vectorNorm(error));
     return arm.commandRates(settings.law, state, error.map((value) => gain * value)).map((rate, k) => free[k] * rate);
   };
+  let [halvings, slope] = [0, rates(Float64Array.from(q))];
+  /** Return the state after a duration and keep its rates; steps are halved because damping and speed have kinks. */
+  const advance = (start: Float64Array, duration: number): Float64Array => {
+    const [slopes, combine] = [[slope], (weights: number[]) => combineRows([weights], slopes)[0]];
+    let end = start;
+    for (const weights of STAGES) {
+      end = addScaled(start, combine(weights), duration);
+      slopes.push(rates(end));
+    }
+    const error = duration * vectorNorm(combine(ERRORS));
+    if (error > STEP_ERROR && duration > SHORTEST_STEP_S && halvings < MAX_HALVINGS) {
+      halvings++;
+      return advance(advance(start, duration / 2), duration / 2);
+    }
+    slope = slopes[STAGES.length];
+    return end;
+  };
   const motion: ControlledMotion = { time: [], q: [], deviation: 0 };
   let state: Float64Array = Float64Array.from(q);
   const line = errorAt(state);
@@ -53,19 +82,9 @@ export function simulateControl(
     motion.q.push(state);
     motion.deviation = Math.max(motion.deviation, distanceFromLine(error, line));
     if (vectorNorm(error) <= END_M) break;
-    state = advance(rates, state, CONTROL_STEP_S);
+    state = advance(state, CONTROL_STEP_S);
   }
   return motion;
-}
-
-/** Return the state after a duration; a step is halved until its halves agree with it, because damping and speed have kinks. */
-function advance(derivative: (state: Float64Array) => Float64Array, state: Float64Array, duration: number): Float64Array {
-  const whole = stepRungeKutta(derivative, state, duration);
-  const middle = stepRungeKutta(derivative, state, duration / 2);
-  const halves = stepRungeKutta(derivative, middle, duration / 2);
-  const error = vectorNorm(addScaled(halves, whole, -1));
-  if (error <= STEP_ERROR || duration < SHORTEST_STEP_S) return halves;
-  return advance(derivative, advance(derivative, state, duration / 2), duration / 2);
 }
 
 /** Return the distance of a point from the straight line to a target, m; `error` and `line` end at the target. */

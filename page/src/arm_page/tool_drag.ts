@@ -5,6 +5,9 @@ import type { ArmModel, Values } from "./arm_model";
 
 const MAX_STEPS = 30;
 const STARTS = 50;
+/** Random starts in each picture of a drag, and the largest offset of their joints, rad and m. */
+const NEAR_STARTS = 5;
+const NEAR_RANGE = 0.3;
 /** Largest error of a target that is reached: rad, and lengths in units of the arm's own length. */
 export const REACHED_ERROR = 1e-6;
 /** Error from which on a further step only repeats rounding. */
@@ -29,23 +32,38 @@ export function reachTarget(arm: ArmModel, q: Values, target: Values, free: Valu
   return { configuration: nearest, error: least, reached: least <= REACHED_ERROR };
 }
 
-/** Search for a target from q and from 50 random starts within the limits; the locked joints stay at their values in q. */
-export function searchTarget(arm: ArmModel, q: Values, target: Values, free: Values, seed = 1): ReachedTarget {
-  const random = new Random(seed);
-  let best = reachTarget(arm, q, target, free);
-  for (let start = 0; start < STARTS && !best.reached; start++) {
-    const found = reachTarget(arm, randomConfiguration(arm, q, free, random), target, free);
-    if (found.error < best.error) best = found;
+/**
+ * Search for a target from q, and then from random starts within the limits and within a range around q, rad and m.
+ *
+ * The locked joints stay at their values in q. A target that no start reaches gets the nearest configuration found from q.
+ */
+export function searchTarget(
+  arm: ArmModel,
+  q: Values,
+  target: Values,
+  free: Values,
+  starts = STARTS,
+  range = Infinity,
+): ReachedTarget {
+  const random = new Random(1);
+  const first = reachTarget(arm, q, target, free);
+  let found = first;
+  for (let start = 0; start < starts && !found.reached; start++) {
+    found = reachTarget(arm, sampleConfiguration(arm, q, free, range, random), target, free);
   }
-  return best;
+  return found.reached ? found : first;
 }
 
-/** Sample the free joints within their limits; without a limit, within half a turn or 1 m of 0 or of the other limit. */
-function randomConfiguration(arm: ArmModel, q: Values, free: Values, random: Random): Float64Array {
+/** Follow a dragged target; where joint limits stop the steps from q, starts near q can reach it. */
+export const followTarget = (arm: ArmModel, q: Values, target: Values, free: Values): ReachedTarget =>
+  searchTarget(arm, q, target, free, NEAR_STARTS, NEAR_RANGE);
+
+/** Sample the free joints within their limits and a range; without a limit, within half a turn or 1 m of 0 or of the other limit. */
+function sampleConfiguration(arm: ArmModel, q: Values, free: Values, range: number, random: Random): Float64Array {
   return Float64Array.from(arm.joints, (joint, k) => {
-    const range = joint.slides ? 1 : Math.PI;
-    const lower = joint.low ?? Math.min(-range, (joint.high ?? 0) - range);
-    const upper = joint.high ?? Math.max(range, (joint.low ?? 0) + range);
+    const half = joint.slides ? 1 : Math.PI;
+    const lower = Math.max(q[k] - range, joint.low ?? Math.min(-half, (joint.high ?? 0) - half));
+    const upper = Math.min(q[k] + range, joint.high ?? Math.max(half, (joint.low ?? 0) + half));
     return free[k] ? lower + (upper - lower) * random.uniform() : q[k];
   });
 }

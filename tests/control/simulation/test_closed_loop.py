@@ -454,6 +454,22 @@ def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rn
     np.testing.assert_array_equal(path.locked, path.time[:, None] >= [1.2, 0.5, np.inf])
 
 
+def test_samples_near_a_kink_follow_the_law():
+    """Where the damping has kinks, a step to a sample can be rejected although the integrator's own step was not."""
+    arm, gain, speed_limit = arms.load("panda"), 2.0, 0.25
+    law = FailureTolerant(arm, "position", gain=gain, speed_limit=speed_limit)
+    q = [-1.0309, 0.1471, -0.5728, -2.018, 2.7474, 0.6242, 0.6593]
+    target = np.array([0.3772, -0.4767, 0.4987])
+    path = simulate(law, q, target, locked=[2]).path(samples=201, until=2.0)
+    middle = (path.q[1:] + path.q[:-1]) / 2
+    error = target - arm.forward_kinematics(middle)[:, :3, 3]
+    gains = np.minimum(gain, speed_limit / np.linalg.norm(error, axis=1))
+    rates = law.velocity(middle, gains[:, None] * error)
+    rates[:, 2] = 0
+    found = np.diff(path.q, axis=0) / np.diff(path.time)[:, None]
+    np.testing.assert_allclose(found, rates, rtol=0, atol=0.01 * np.linalg.norm(rates, axis=1).max())
+
+
 @pytest.mark.parametrize("cycles", [False, True])
 def test_lock_times_of_each_run(three, rng, cycles):
     """As many calls with a time each; whole numbers and infinity serve as well."""

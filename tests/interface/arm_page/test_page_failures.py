@@ -70,6 +70,35 @@ def test_lost_motions_are_those_of_singular_values(page_arm, rng, name):
             np.testing.assert_allclose(remaining, expected[k], rtol=0, atol=1e-11)
 
 
+@pytest.mark.skipif(not oracles.LONG, reason="long double is double here")
+@pytest.mark.parametrize("name", [*ARMS, "pa10-7dof", "xarm7", "openarm"])
+def test_rounding_grows_only_with_the_condition(page_arm, rng, name):
+    """Any stable method magnifies rounding by cond(J), and directions also by small gaps and small losses."""
+    page, count = page_arm(name), 60
+    n, epsilon = page.arm.n, np.finfo(float).eps
+    q = oracles.inside(page.arm, rng, count)
+    q[range(count), rng.integers(n, size=count)] *= 10 ** rng.uniform(-6, 0, count)  # often singular at 0
+    rows = [(row, rng.permutation(n)[: rng.integers(1, 4)].tolist()) for row in q]
+    script = "(page, arm, [q, locked]) => [page.relativeManipulability(arm, q), page.lostMotions(arm, q, locked)]"
+    for (row, locked), (rho, motions) in zip(rows, page.call(script, rows), strict=True):
+        j = page.task.rows @ oracles.jacobian(page.arm, row[None].astype(np.longdouble))[0]
+        condition = oracles.condition(j.astype(float))
+        if condition > 1e7:
+            continue
+        bar = 4 * epsilon * condition
+        assert bar < 1e-12 or condition > 1000
+        fractions, directions = oracles.lost_motions_long(j, locked)
+        np.testing.assert_allclose(rho, oracles.rho_long(j).astype(float), rtol=0, atol=bar)
+        np.testing.assert_allclose([motion["remaining"] for motion in motions], fractions, rtol=0, atol=bar)
+        for k, motion in enumerate(motions):
+            gap = min(np.abs(np.delete(fractions, k) - fractions[k]), default=1)
+            loss = np.sqrt(max(0, 1 - fractions[k] ** 2))
+            if gap > 1e-6 and loss > 1e-6:
+                found = page.task.rows @ motion["twist"]
+                direction = (directions[k] / np.sqrt(directions[k] @ directions[k])).astype(float)
+                np.testing.assert_allclose(np.sign(found @ direction) * found, direction, rtol=0, atol=5 * bar / gap / loss)
+
+
 @pytest.mark.parametrize("name", ARMS)
 def test_ellipsoid_is_that_of_motions_without_rotation(page_arm, rng, name):
     page = page_arm(name)

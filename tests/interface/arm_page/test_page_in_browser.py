@@ -287,6 +287,19 @@ def test_it_runs_in_a_sandboxed_frame(opened):
     rest(page)
 
 
+def test_a_report_contains_the_page_of_its_arm(opened, tmp_path):
+    arm = arms.load("planar-3r")
+    index = hf.indices.relative_manipulability(arm, "planar")
+    best = hf.optimise(arm, arm.forward_kinematics([0.3, 0.8, 0.4]), index)
+    best.report(tmp_path / "report.html")
+    frame = opened((tmp_path / "report.html").read_text(encoding="utf-8")).frame_locator("iframe")
+    shown = [number(text, "%") for text in frame.locator(".bar-value").all_inner_texts()]
+    np.testing.assert_allclose(shown, 100 * index.by_joint(best.q), atol=0.51)
+    frame.locator(".bars button").nth(1).click()
+    assert "Joint 2 is locked" in frame.locator(".arm-headline").inner_text().replace("\N{NO-BREAK SPACE}", " ")
+    assert frame.locator(".arm-steps").count() == 0
+
+
 def test_a_menu_shows_another_arm(opened):
     html = arms.load("planar-3r").page(beside=[arms.load("panda"), arms.load("ur5")]).to_html()
     page = opened(html)

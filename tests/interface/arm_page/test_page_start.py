@@ -77,14 +77,13 @@ def test_the_start_leaves_much_to_gain(name, label):
 @pytest.mark.parametrize(("name", "task"), [("panda", "position"), ("planar-3r", "planar")])
 def test_deviations_are_those_of_single_runs(rng, name, task, label):
     arm = hf.arms.load(name)
-    law = hf.laws.by_name(label, arm, task=task)
-    runs_law = hf.laws.by_name(label, arm, task=task, gain=2.0, speed_limit=0.25)
+    law = hf.laws.by_name(label, arm, task=task, gain=2.0, speed_limit=0.25)
     start = oracles.inside(arm, rng, 1)[0]
     near = np.clip(start + rng.uniform(-0.5, 0.5, (5, arm.n)), arm.lower, arm.upper)
     targets, locked = arm.forward_kinematics(near)[:, :3, 3], int(rng.integers(arm.n))
     found, has_arrived = simulate_deviations(law, start, targets, locked)
     for k, target in enumerate(targets):
-        run = hf.simulate(runs_law, start, law.task.rows[:, :3] @ target, locked=[locked])
+        run = hf.simulate(law, start, law.task.rows[:, :3] @ target, locked=[locked])
         path = run.path(samples=601, until=12.0)
         line = target - path.x[0]
         fraction = np.clip((path.x - path.x[0]) @ line / (line @ line), 0, 1)

@@ -119,6 +119,26 @@ def test_boxes_that_are_blocked_hold_no_clear_configuration(three, rng):
     assert proved > 20
 
 
+def test_near_misses_omit_only_searches_that_would_prove_nothing(three, rng):
+    """Goals that a range misses by 1 mrad to 0.5 rad are proved within the tolerance exactly where boxes alone prove them."""
+    found = []
+    for _ in range(40):
+        q, tolerance = rng.uniform(three.lower, three.upper - 0.9), (1e-2, 1e-2)
+        limited, locked = rng.permutation(3)[:2].tolist()
+        begin = q[limited] + 10 ** rng.uniform(-3, -0.3)
+        degraded = hf.Degraded(three, locked={locked: q[locked]}, ranges={limited: (begin, begin + 0.3)})
+        at, goal = q.copy(), three.forward_kinematics(q)
+        at[limited] = begin + 0.1
+        options = {"task": "planar", "clearance": False, "samples": 0, "relax": False, "tolerance": tolerance}
+        recovery = hf.recover(three, degraded, at, goal=goal, **options)
+        if recovery.proof_kind == "boxes":
+            limits = degraded.lo, degraded.hi
+            boxes = hf.all_configurations(three, goal, "planar", limits=limits, tolerance=tolerance)
+            assert recovery.proved_within == boxes.proved_empty
+            found.append(recovery.proved_within)
+    assert 5 < sum(found) < len(found) - 5
+
+
 def test_rows_kept_no_goal_at_which_they_are_kept_is_called_broken(rng):
     """Starts and goals drawn such that rows are kept, and then what the task leaves open."""
     arm = hf.arms.load("panda")

@@ -50,7 +50,6 @@ LOOP_CALLS_PER_RUN = 1500  # calls of the loop for each run (measured for severa
 MAX_BLOCK_RUNS = 8192  # runs that one thread simulates together
 MIN_BLOCK_RUNS = 256  # no result depends on it
 
-
 Advance = Callable[[FloatArray, FloatArray], tuple[FloatArray, BoolArray]]
 
 
@@ -181,6 +180,19 @@ class ClosedLoopSimulator:
             "limits_passed": (lowest < self.law.arm.lower) | (highest > self.law.arm.upper),
             "time": parts["time"][:, 0] / time_scale,
         }
+
+    def trace_steps(self, q0: FloatArray, target: FloatArray, lock_time: FloatArray, setting: RunSettings) -> FloatArray:
+        """Return configurations (T, N, n), the start and those after each fixed step; arguments as in :meth:`run`, finite."""
+        trajectory = [q0]
+
+        def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
+            for _ in range(round(setting.time_limit / setting.step_size)):
+                states = self._advance_step(states, parameters)
+                trajectory.append(self._stepper.layout.view_parts(states)["q"])
+            return states, np.ones(len(states), dtype=bool)
+
+        self._run_phases(q0, self._make_parameters(target, setting), lock_time, setting, advance)
+        return np.stack(trajectory)
 
     def _classify_endings(
         self, scaled_errors: FloatArray, parts: dict[str, FloatArray]
@@ -350,35 +362,33 @@ class ClosedLoopSimulator:
     def replay_run(self, runs: Runs, run: int, end: float) -> tuple[FloatArray, Callable[[FloatArray], FloatArray]]:
         """Simulate run k again up to a time, s or cycles; return the times (S,) of its steps and its motion, (T,) -> (T, n)."""
         history: list[tuple[FloatArray, FloatArray]] = []
-        time_scale = self._time_scale
 
         def advance(states: FloatArray, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
             parts = self._stepper.layout.view_parts(states)
             for _ in range(MAX_STEPS):
                 history.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both
-                if parts["code"][0, 0] != STATE_RUNNING or parts["time"][0, 0] > end * time_scale:
+                if parts["code"][0, 0] != STATE_RUNNING or parts["time"][0, 0] > end * self._time_scale:
                     break
                 states = self._advance_step(states, parameters)
                 parts = self._stepper.layout.view_parts(states)
             return states, np.array([parts["code"][0, 0] != STATE_RUNNING])
 
-        run_parameters = self._make_parameters(self._target_poses(runs)[run][None], runs._settings)
-        self._run_phases(
-            np.atleast_2d(runs.q0)[run : run + 1], run_parameters, runs.held_from[run : run + 1], runs._settings, advance
-        )
+        rows, run_parameters = [run], self._make_parameters(self._target_poses(runs)[run][None], runs._settings)
+        self._run_phases(np.atleast_2d(runs.q0)[rows], run_parameters, runs.held_from[rows], runs._settings, advance)
         states, parameters = (np.array(values) for values in zip(*history, strict=True))
-        parts = self._stepper.layout.view_parts(states)
+        parts, time_scale = self._stepper.layout.view_parts(states), self._time_scale
         if self.cycles:
             times, columns = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS_PER_CYCLE, parts["q"].T
             return times, lambda time: np.stack([np.interp(time, times, column) for column in columns], axis=1)
 
         def interpolate(time: FloatArray) -> FloatArray:
-            # A shorter step from the step's beginning is as accurate as the integrator's step.
+            # A shorter step from the step's beginning is as accurate as the integrator's step; at a kink it may take several.
             step_index = np.searchsorted(parts["time"][:, 0], time * time_scale, side="right") - 1
-            step_parameters = parameters[step_index]
-            parameter_parts = self._stepper.parameters.view_parts(step_parameters)
-            parameter_parts["until"][:, 0], parameter_parts["accuracy"][:] = time * time_scale, 1.0
-            return self._stepper.layout.view_parts(self._advance_step(states[step_index], step_parameters))["q"]
+            layout, samples, step_parameters = self._stepper.layout, states[step_index], parameters[step_index]
+            self._stepper.parameters.view_parts(step_parameters)["until"][:, 0] = time * time_scale
+            while (layout.view_parts(samples)["code"] == STATE_RUNNING).any():
+                samples = self._advance_step(samples, step_parameters)
+            return layout.view_parts(samples)["q"]
 
         return parts["time"][:, 0] / time_scale, interpolate
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -42,6 +43,7 @@ def replace_infinite_limits(lower: FloatArray, upper: FloatArray, prismatic: Boo
     return finite_lower, finite_upper
 
 
+@lru_cache(maxsize=64)
 def align_joint_frames(arm: ArmData) -> tuple[FloatArray, FloatArray]:
     """Return the frames of all joints, rotated so that each joint's axis is z, and the poses of the links' own frames in them.
 

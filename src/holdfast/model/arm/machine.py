@@ -26,6 +26,8 @@ DRY_FRICTION = ("coulomb_friction", "stiction")
 FARTHEST_LIMIT_RAD = 200 * np.pi
 FARTHEST_LIMIT_M = 1000.0
 _MAX_ABSOLUTE_VALUE = 1e12  # of any number, so that products stay finite
+_MAX_PRODUCT_ERRORS = 1e-6 + 1e-5 * np.eye(3)  # of a rotation times its transpose
+_LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])  # of a pose
 
 
 @check_constructor
@@ -417,9 +419,9 @@ def check_transform(value: ArrayLike, label: str) -> FloatArray:
     if np.abs(pose).max() > _MAX_ABSOLUTE_VALUE:
         raise ArmError(f"{label} is beyond {_MAX_ABSOLUTE_VALUE:g} m; give lengths in metres")
     rotation = pose[:3, :3]
-    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
+    if (np.abs(rotation @ rotation.T - np.eye(3)) > _MAX_PRODUCT_ERRORS).any() or np.linalg.det(rotation) < 0:
         raise ArmError(f"{label}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
-    if not np.allclose(pose[3], [0, 0, 0, 1]):
+    if (np.abs(pose[3] - _LAST_ROW) > 1e-8 + 1e-5 * _LAST_ROW).any():
         raise ArmError(f"{label}: its last row is {pose[3].tolist()}; it must be 0, 0, 0, 1")
     exact = pose.copy()
     exact[:3, :3] = snap_rounding_noise(rotation)

@@ -12,38 +12,44 @@ from holdfast.model.collision.capsules import Capsules
 Pairs = NDArray[np.int64]
 
 
-def pair_lipschitz_bounds(
+def capsule_lipschitz_bounds(
     arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], lower: FloatArray, upper: FloatArray
 ) -> FloatArray:
-    """Bound the change of the distance of each pair of capsules per rad and m of each joint, (P, n).
+    """Bound the change of the distances of ``pairs``, positions in ``capsules.parts``; see :func:`pair_lipschitz_bounds`."""
+    positions = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    links = np.array([part.link for part in capsules], dtype=np.int64)[positions]
+    ends = np.array([[part.start, part.end] for part in capsules]).reshape(-1, 2, 3)
+    return pair_lipschitz_bounds(arm, links, np.linalg.norm(ends, axis=2).max(axis=1)[positions], lower, upper)
 
-    A joint between the two links of a pair rotates one capsule about an axis and leaves the other at rest, so per rad the
-    distance changes by at most the distance of the farthest point of either capsule from that axis, and by 1 m per m for a
+
+def pair_lipschitz_bounds(
+    arm: Arm, links: Pairs, max_distances: FloatArray, lower: FloatArray, upper: FloatArray
+) -> FloatArray:
+    """Bound the change of the distance of each pair of convex bodies per rad and m of each joint, (P, n).
+
+    A joint between the two links of a pair rotates one body about an axis and leaves the other at rest, so per rad the
+    distance changes by at most the distance of the farthest point of either body from that axis, and by 1 m per m for a
     prismatic joint. The lengths along the chain bound the farthest point: a Lipschitz bound for every configuration within the
     box.
 
     Args:
         arm: Arm model.
-        capsules: Collision model of the arm.
-        pairs: Positions in ``capsules.parts``, the capsule nearer to the base first.
+        links: (P, 2) links of both bodies, the one nearer to the base first.
+        max_distances: (P, 2) largest distance of each body's axis or centre from the frame of its link, m.
         lower: (n,) lower corner of the box, finite, rad and m.
         upper: (n,) upper corner of the box, finite, rad and m.
     """
     extensions, offsets = _joint_extents(arm, lower, upper)
-    positions = np.array(pairs, dtype=np.int64).reshape(-1, 2)
-    links = np.array([part.link for part in capsules], dtype=np.int64)[positions]
-    ends = np.array([[part.start, part.end] for part in capsules]).reshape(-1, 2, 3)
-    end_distances = np.linalg.norm(ends, axis=2).max(axis=1)[positions]
-    # Sums over the joints before each one, for the way inwards from an axis to the first capsule and outwards to the second.
+    # Sums over the joints before each one, for the way inwards from an axis to the first body and outwards to the second.
     offset_sums, extension_sums = (np.append(0.0, np.cumsum(values)) for values in (offsets, extensions))
-    bounds = np.zeros((len(pairs), arm.n))
+    bounds = np.zeros((len(links), arm.n))
     for joint in range(arm.n):
         moving = np.flatnonzero((links[:, 0] < joint) & (joint <= links[:, 1]))
         first, second = links[moving, 0] + 1, links[moving, 1] + 1
         outward = extensions[joint] + offset_sums[second] - offset_sums[joint + 1]
-        outward = outward + extension_sums[second] - extension_sums[joint + 1] + end_distances[moving, 1]
+        outward = outward + extension_sums[second] - extension_sums[joint + 1] + max_distances[moving, 1]
         inward = offset_sums[joint + 1] - offset_sums[first] + extension_sums[joint] - extension_sums[first]
-        inward = inward + end_distances[moving, 0]
+        inward = inward + max_distances[moving, 0]
         bounds[moving, joint] = 1.0 if arm.prismatic[joint] else np.minimum(outward, inward)
     return bounds
 

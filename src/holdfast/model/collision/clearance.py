@@ -27,7 +27,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.arm.task import plane_normal
 from holdfast.model.cell.cell import Cell
 from holdfast.model.collision.capsules import Capsules, IgnoredPair
-from holdfast.model.collision.changes import pair_lipschitz_bounds
+from holdfast.model.collision.changes import capsule_lipschitz_bounds
 from holdfast.model.collision.obstacles import Obstacles
 from holdfast.model.collision.segments import LineSegment, closest_parameters, distance_between_points, separating_wrench
 
@@ -400,7 +400,7 @@ class Clearance:
             low: (n,) lower corner of the box, finite, rad and m.
             high: (n,) upper corner of the box, finite, rad and m.
         """
-        bounds = pair_lipschitz_bounds(self.arm, self.capsules, self.pairs, low, high)
+        bounds = capsule_lipschitz_bounds(self.arm, self.capsules, self.pairs, low, high)
         return bounds if self.obstacles is None else np.concatenate([bounds, self.obstacles.lipschitz_bounds(low, high)])
 
     # ---- phrases -----------------------------------------------------------------------------------------------

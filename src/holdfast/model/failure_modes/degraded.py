@@ -106,12 +106,16 @@ class Degraded:
             if joint.name in self.ranges:
                 low, high = self.ranges[joint.name]
                 joint = replace(joint, type="prismatic" if joint.prismatic else "revolute", lower=low, upper=high)
-            joints.append(replace(joint, velocity=joint.velocity * self.speeds.get(joint.name, 1.0)))
+            if joint.name in self.speeds:
+                joint = replace(joint, velocity=joint.velocity * self.speeds[joint.name])
+            joints.append(joint)
         return replace(self.arm, joints=tuple(joints))
 
     def at(self, q: ArrayLike) -> Degraded:
         """Return the same failures, with present values taken from the configuration ``q`` (n,), rad and m."""
         here = self.arm.check_configurations(q)
+        if None not in self.locked.values():
+            return self
         return replace(self, locked={self.arm.joint_names[k]: x for k, x in locks_at(self.arm, self.locked, here).items()})
 
     def require_values(self) -> Degraded:

@@ -24,9 +24,10 @@ from holdfast.response.recovery.problem import LOCK_TOLERANCE, RecoveryGoal, des
 from holdfast.response.recovery.proofs.path_proof import prove_path_infeasible
 from holdfast.response.recovery.proofs.reach import (
     ANY_ORIENTATION,
+    PoseProof,
     enumerate_collision_free,
     prove_unreachable,
-    proves_no_solution,
+    prove_within_tolerance,
 )
 from holdfast.response.recovery.proofs.separation import prove_goal_disconnected
 from holdfast.response.recovery.recovery import Leg, ProofKind, Recovery, RecoveryOutcome
@@ -58,7 +59,7 @@ class UndecidedGoal:
     configurations: FloatArray
     pose_indices: IndexArray = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
     reach_proofs: tuple[str | None, ...] = ()
-    box_proofs: tuple[str | None, ...] = ()
+    box_proofs: tuple[PoseProof | None, ...] = ()
     reasons: tuple[str, ...] = ()
     is_proved_unreachable: bool = False
 
@@ -141,7 +142,7 @@ class RecoveryAttempt:
         if not rest.finished:
             rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
-            self.recovery = prove_path_infeasible(self.recovery, rest, path, solver=self.search.solver, space=self.search.space)
+            self.recovery = prove_path_infeasible(self.recovery, rest, path, self.search)
             shape_doubt, first_lost = describe_unknown_shape(self.search.space.clearance), rest.first_lost
             first_poses = path.pose(rest.share[:1] if first_lost is None else np.array([first_lost]))
             if shape_doubt and (
@@ -252,7 +253,7 @@ class RecoveryAttempt:
             reach_proofs = [prove_unreachable(self.search.solver, space.free, goal.q_start, pose) for pose in target.poses]
             goal = replace(goal, reach_proofs=tuple(reach_proofs), box_proofs=(None,) * len(reach_proofs))
         if None in goal.reach_proofs:
-            q, pose_indices, proofs = enumerate_collision_free(recovery, self.search.solver, space, target.poses)
+            q, pose_indices, proofs = enumerate_collision_free(recovery, self.search, target.poses)
             goal = replace(goal, configurations=q, pose_indices=pose_indices, box_proofs=tuple(proofs))
         self._record_timeout_step("while searching for configurations of the goal")
         recovery = replace(recovery, found=len(goal.configurations))
@@ -293,13 +294,14 @@ class RecoveryAttempt:
     def _prove_unreachable(self, goal: UndecidedGoal) -> UndecidedGoal:
         """Add the proof that no configuration meets the goal, or the unknown property where there is no proof."""
         recovery, target, space = goal.recovery, goal.target, self.search.space
-        proofs = [reach_proof or box_proof for reach_proof, box_proof in zip(goal.reach_proofs, goal.box_proofs, strict=True)]
-        if None not in proofs:
-            proof = f"{proofs[0]}{'' if recovery.within is None else ANY_ORIENTATION}"
+        proofs = [
+            box_proof if sentence is None else PoseProof(sentence, bool(prove_within_tolerance(recovery, self.search, pose)))
+            for sentence, box_proof, pose in zip(goal.reach_proofs, goal.box_proofs, target.poses, strict=True)
+        ]
+        if proofs[0] is not None and None not in proofs:
+            proof = f"{proofs[0].sentence}{'' if recovery.within is None else ANY_ORIENTATION}"
             kind: ProofKind = "reach bound" if None not in goal.reach_proofs else "boxes"
-            within = recovery.tolerance is not None and all(
-                proves_no_solution(recovery.degraded, recovery.task, pose, space, recovery.tolerance) for pose in target.poses
-            )
+            within = all(proof is not None and proof.holds_within_tolerance for proof in proofs)
             recovery = replace(recovery, proof=proof, proof_kind=kind, proved_within=within)
             return replace(goal, recovery=recovery, reasons=(*goal.reasons, proof), is_proved_unreachable=True)
         pair = name_blocking_pair(self.search, target.poses, goal.q_start, recovery.seed)

@@ -13,7 +13,8 @@ from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxed_rows_sort_key
 
 _MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest ones
-_SELF_MOTION_STEPS = 25
+_SELF_MOTION_STEPS = 12
+_LARGEST_STEP, _SMALLEST_STEP = 0.6, 0.3  # of the way to the start; halved where a step fails
 _DUPLICATE_TOLERANCE = 1e-4  # rad and m
 _STARTS_PER_SET = 96
 _SLSQP_OPTIONS: Any = {"ftol": 1e-12, "maxiter": 100}  # the tolerance is a fraction of the squared error at the start
@@ -113,6 +114,24 @@ class PoseSearch:
         q = self.solve(starts, poses, row_masks)
         return np.asarray(q[self.are_valid(q, poses, row_masks)])
 
+    def find_near_misses(self, pose: FloatArray, q_start: FloatArray, tolerance: tuple[float, float], seed: int) -> FloatArray:
+        """Return configurations (K, n) within the limits that nearly meet a pose (4, 4); maybe none.
+
+        Args:
+            pose: (4, 4) pose of the end effector, m.
+            q_start: (n,) configuration with the values of the locked joints, rad and m.
+            tolerance: Largest root mean square of the errors of the linear rows, m, and of the angular rows, rad.
+            seed: Seed of the starts.
+        """
+        starts = self.sample_starts(q_start, _STARTS_PER_SET - 1, np.random.default_rng(seed))
+        poses, is_linear = np.repeat(pose[None], len(starts), axis=0), np.array(self.solver.rows.units) == "m"
+        weights = 1e-3 / np.maximum(np.where(is_linear, *tolerance), 1e-6)
+        q = self.solver.solve(starts, poses, np.tile(weights, (len(starts), 1)), self.space.free)
+        errors, is_near = self.solver.compute_errors(q, poses), self.space.are_within_limits(q)
+        for rows, allowed in zip((is_linear, ~is_linear), tolerance, strict=True):
+            is_near &= np.linalg.norm(errors[:, rows], axis=1) <= np.sqrt(rows.sum()) * allowed
+        return np.asarray(q[is_near])
+
 
 def find_goal_configurations(
     search: PoseSearch, pose: FloatArray, q_start: FloatArray, start_count: int, rng: np.random.Generator
@@ -124,17 +143,18 @@ def find_goal_configurations(
     q = search.solve_pose(pose, search.sample_starts(q_start, start_count, rng))
     q = q_start + search.space.shortest_difference(q, q_start)
     poses, row_masks = np.repeat(pose[None], len(q), axis=0), search.make_row_masks(len(q))
-    moving = np.arange(len(q))
-    for _ in range(_SELF_MOTION_STEPS):
+    fractions, has_self_motion = np.full(len(q), _LARGEST_STEP), int(search.space.free.sum()) > search.solver.rows.m
+    for _ in range(_SELF_MOTION_STEPS if has_self_motion else 0):
+        moving = np.flatnonzero(fractions >= _SMALLEST_STEP)
+        if not moving.size:
+            break
         current = q[moving]
-        target = current + 0.3 * search.space.shortest_difference(q_start, current)
+        target = current + fractions[moving, None] * search.space.shortest_difference(q_start, current)
         trial = search.solve(target, poses[moving], row_masks[moving], max_steps=20)
         nearer = search.metric.measure_length(trial - q_start) < search.metric.measure_length(current - q_start) * (1 - 1e-6)
         nearer &= search.are_valid(trial, poses[moving], row_masks[moving])
         q[moving[nearer]] = trial[nearer]
-        moving = moving[nearer]
-        if not moving.size:
-            break
+        fractions[moving[~nearer]] /= 2
     return _remove_duplicates(q[np.argsort(search.metric.measure_length(q - q_start), kind="stable")])
 
 
@@ -153,12 +173,10 @@ def name_blocking_pair(search: PoseSearch, poses: FloatArray, q_start: FloatArra
 
 def _remove_duplicates(q: FloatArray) -> FloatArray:
     """Return the first of configurations that are the same, up to the number that a goal keeps."""
-    retained: list[int] = []
-    for candidate in range(len(q)):
-        if all(np.abs(q[candidate] - q[other]).max() > _DUPLICATE_TOLERANCE for other in retained):
-            retained.append(candidate)
-        if len(retained) == _MAX_CONFIGURATIONS:
-            break
+    retained, is_new = list[int](), np.ones(len(q), dtype=np.bool_)
+    while is_new.any() and len(retained) < _MAX_CONFIGURATIONS:
+        retained.append(int(is_new.argmax()))
+        is_new &= np.abs(q - q[retained[-1]]).max(axis=1) > _DUPLICATE_TOLERANCE
     return q[retained]
 
 

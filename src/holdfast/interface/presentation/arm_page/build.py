@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 from numpy.typing import ArrayLike
 
 from holdfast.core.errors import InputError
@@ -25,6 +26,7 @@ from holdfast.interface.presentation.arm import view
 from holdfast.interface.presentation.arm_page.phrases import format_percent, label_joints, read_texts
 from holdfast.interface.presentation.arm_page.printed_kernels import print_page_kernels
 from holdfast.interface.presentation.arm_page.start import choose_start, find_prepared, measure_fractions, simulate_story
+from holdfast.interface.report.page import Picture
 from holdfast.interface.report.viewer import COLOR_SCHEME_SCRIPT, read_template, round_to_seven_digits, to_script_json
 from holdfast.kernels.disk_cache import cached_json
 from holdfast.kinematics.index_bounds.manipulability_bounds import upper_bound
@@ -35,7 +37,7 @@ from holdfast.model.arms.spec import default_task
 from holdfast.model.cell.cell import Cell
 
 STEP_NAMES = ("healthy", "lock", "prepare", "undetected", "power")
-_FRAME_HEIGHT_PX = 720  # of the page in a notebook
+_FRAME_HEIGHT_PX = 780  # of the page in a notebook
 DEFAULT_LAWS = ("pseudoinverse", "failure-tolerant")
 
 
@@ -94,6 +96,12 @@ def build_page(
         options = "".join(f"<option>{escape(name)}</option>" for name in names)
         menu = f'<label>{texts["arms"]} <select class="arm-menu">{options}</select></label>'
     return _join_page(sections, names, f"{arm.name}: which joint matters?", menu)
+
+
+def build_live_picture(arm: Arm, q: ArrayLike, task: Task, cell: Cell | None = None) -> Picture:
+    """Build a part of a report in which the reader drags the tool and locks joints: the page of the arm in a frame."""
+    caption = "Drag the ring to move the tool, and click a bar to lock a joint. A bar shows the speed that the tool then keeps."
+    return Picture(Markup(build_page(arm, q, task=task, cell=cell, plain=True)._repr_html_()), caption, screen=True)
 
 
 def build_studio_page(

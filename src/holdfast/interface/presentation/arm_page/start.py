@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.laws.law import Law, by_name
+from holdfast.control.simulation.batch import compiled_simulator
+from holdfast.control.simulation.runs import RunSettings
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.kinematics.indices import index
@@ -29,7 +31,7 @@ _SPACING_RAD = 0.05
 _STRUCTURAL_ZERO = 1e-6  # worst case below which no configuration of a self-motion helps
 _GAIN_PER_S = 2.0
 _SPEED_M_S = 0.25
-_STEP_S = 0.02  # of the page's simulation, in closed_loop.ts
+_STEP_S = 0.02  # between the samples of a motion, as in closed_loop.ts
 _DURATION_S = 12.0
 _REACH_TOLERANCE = 1e-8  # of a tool pose, rad, and in units of the arm's length
 _END_M = 0.001  # distance from the target at which a motion ends
@@ -144,7 +146,7 @@ def simulate_story(
             raise InputError(f"target has shape {targets.shape}; give a position (3,) or a pose (4, 4)")
         targets = targets[None] if targets.shape == (3,) else targets[None, :3, 3]
     worst = int(np.argmin(measure_fractions(arm, task, start[None])[0]))
-    control_laws = [by_name(label, arm, task=path_task) for label in laws]
+    control_laws = [by_name(label, arm, task=path_task, gain=_GAIN_PER_S, speed_limit=_SPEED_M_S) for label in laws]
     runs = [
         simulate_deviations(law, q, targets, worst)
         for law, q in ((control_laws[0], start), (control_laws[1], start), (control_laws[0], prepared))
@@ -185,39 +187,20 @@ def _draw_targets(arm: Arm, start: FloatArray) -> FloatArray:
 def simulate_deviations(law: Law, start: FloatArray, targets: FloatArray, locked: int) -> tuple[FloatArray, BoolArray]:
     """Return the largest distance (N,) of the tool from the straight line to each target (N, 3), m, with a joint locked.
 
-    The controller commands ``q' = G(q) v`` without information about the lock, with the velocity v towards the target, as
-    ``closed_loop.ts`` does: classic Runge-Kutta with 20 ms, until 1 mm from the target, at most 12 s. The second array (N,) is
-    True where the motion ended within 1 mm.
+    The controller has no information about the lock. A motion lasts until 1 mm from the target, at most 12 s. The second array
+    (N,) is True where the motion ended within 1 mm.
     """
-    arm, rows, moving = law.arm, law.task.rows[:, :3], np.arange(law.arm.n) != locked
-
-    def errors_at(q: FloatArray) -> FloatArray:
-        return np.asarray(targets[active] - arm.forward_kinematics(q)[:, :3, 3])
-
-    def command_rates(q: FloatArray, errors: FloatArray) -> FloatArray:
-        distances = np.sqrt((errors * errors).sum(axis=1, keepdims=True))
-        gains = np.minimum(_GAIN_PER_S, _SPEED_M_S / np.maximum(distances, 1e-12))
-        return np.asarray(law.velocity(q, gains * errors @ rows.T) * moving)
-
-    active = np.arange(len(targets))
-    q = np.tile(start, (len(targets), 1))
-    lines = targets - arm.forward_kinematics(start[None])[0, :3, 3]
-    largest, has_arrived = np.zeros(len(targets)), np.zeros(len(targets), dtype=bool)
-    for _ in range(round(_DURATION_S / _STEP_S) + 1):
-        errors = errors_at(q)
-        fractions = np.clip((errors * lines[active]).sum(axis=1) / (lines[active] ** 2).sum(axis=1), 0, 1)
-        largest[active] = np.maximum(largest[active], np.linalg.norm(errors - fractions[:, None] * lines[active], axis=1))
-        has_arrived[active] = np.linalg.norm(errors, axis=1) <= _END_M
-        is_moving = ~has_arrived[active] & np.isfinite(q).all(axis=1)
-        active, q, errors = active[is_moving], q[is_moving], errors[is_moving]
-        if not len(active):
-            break
-        slope_1 = command_rates(q, errors)
-        slope_2 = command_rates(x := q + _STEP_S / 2 * slope_1, errors_at(x))
-        slope_3 = command_rates(x := q + _STEP_S / 2 * slope_2, errors_at(x))
-        slope_4 = command_rates(x := q + _STEP_S * slope_3, errors_at(x))
-        q = q + _STEP_S / 6 * (slope_1 + 2 * slope_2 + 2 * slope_3 + slope_4)
-    return largest, has_arrived
+    arm, shape = law.arm, (len(targets), law.arm.n)
+    lock_times = np.where(np.arange(arm.n) == locked, 0.0, np.inf)
+    settings = RunSettings(_DURATION_S, _END_M, _STEP_S)
+    simulator, components = compiled_simulator(law, "rk4"), targets @ law.task.rows[:, :3].T
+    q = simulator.trace_steps(np.tile(start, (len(targets), 1)), components, np.broadcast_to(lock_times, shape), settings)
+    errors = targets - arm.forward_kinematics(q.reshape(-1, arm.n))[:, :3, 3].reshape(*q.shape[:2], 3)
+    is_near = np.linalg.norm(errors, axis=2) <= _END_M
+    is_moving, lines = is_near.cumsum(axis=0) == is_near, errors[0]
+    fractions = np.clip((errors * lines).sum(axis=2) / (lines**2).sum(axis=1), 0, 1)
+    distances = np.linalg.norm(errors - fractions[..., None] * lines, axis=2)
+    return np.asarray((distances * is_moving).max(axis=0)), np.asarray(is_near.any(axis=0))
 
 
 def find_prepared(arm: Arm, task: Task, start: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from holdfast.core.status import Status
 from holdfast.core.typing import FloatArray
 from holdfast.interface.presentation.arm.console import list_limit_violations
 from holdfast.interface.presentation.arm.view import build_view_section
+from holdfast.interface.presentation.arm_page.build import build_live_picture
 from holdfast.interface.presentation.collision.shape import describe_shape, summarize_shape
 from holdfast.interface.presentation.indices.console import display_unit
 from holdfast.interface.presentation.presentation import (
@@ -240,6 +241,7 @@ def _compare_clearance(rows: Optima) -> tuple[list[Fact], str]:
 
 def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
     pose_index = int(rows.success.argmax())
+    cell = None if rows.clearance is None else rows.clearance.cell
     caption = f"The arm at its best configuration and, transparent, at {reference}"
     caption += "." if rows.free else ". Both have the same tool pose."
     section = build_view_section(
@@ -250,9 +252,10 @@ def _draw_comparison(rows: Optima, reference: str) -> list[Section]:
         name="both",
         labels=("best", "before"),
         targets=[] if rows.free else [rows.poses[pose_index]],
-        cell=None if rows.clearance is None else rows.clearance.cell,
+        cell=cell,
     )
-    return [section]
+    live = build_live_picture(rows.arm, rows.q[pose_index], rows.task, cell)
+    return [replace(section, blocks=[*section.blocks, live])]
 
 
 def to_csv(optima: Optima, path: Path) -> Path:

@@ -5,12 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import casadi as ca
 import numpy as np
 
-from holdfast.core.typing import BoolArray, FloatArray
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.kernels.disk_cache import cached_kernel
+from holdfast.kernels.kernel import Kernel
+from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
+from holdfast.model.arm.machine import ArmData
 from holdfast.model.arm.model import Arm
-from holdfast.model.collision.capsules import BASE_LINK, Capsules, LinkCapsule
+from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.changes import pair_lipschitz_bounds
 from holdfast.model.collision.clearance import Clearance
 
@@ -44,8 +49,9 @@ class BlockedBoxes:
         balls = self._inner_model.spheres
         self._links = np.unique(balls.link[balls.link > BASE_LINK])
         extents = np.linalg.norm(balls.center, axis=1) + balls.radius
-        self._link_extents = np.array([extents[balls.link == link].max() for link in self._links])
-        self._axes = np.array([joint.axis for joint in self._arm.joints])
+        link_extents = np.array([extents[balls.link == link].max() for link in self._links])
+        if self._links.size and self._margins.size:
+            self._motion_kernel = _link_motion_kernel(self._arm, self._links, link_extents)
         self._self_clearance, self._margin = clearance.self_only, margin
         self._self_pairs = _find_self_pairs(clearance, limits or sampling_limits(self._arm))
 
@@ -65,6 +71,8 @@ class BlockedBoxes:
         is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
         for pair in self._self_pairs:
             indices = np.flatnonzero(~is_blocked & (pair_distances[:, pair.columns].min(axis=1) < self._margin))
+            if not indices.size:
+                continue
             upper_bounds = (
                 pair.measure_distances(self._arm, q[indices], pair_distances[indices])
                 + half_widths[indices] @ pair.lipschitz_bounds.T
@@ -77,22 +85,10 @@ class BlockedBoxes:
 
     def _are_boxes_hitting_objects(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         is_blocked = np.zeros(len(q), dtype=bool)
-        margins = self._inner_model.link_distances(q) - self._margins
-        indices = np.flatnonzero((margins < -_ROUNDING_SLACK_M).any(axis=(1, 2)))
-        margins = margins[indices]
+        indices = np.flatnonzero(self._inner_model.smallest_distance(q) < self._margins.max() - _ROUNDING_SLACK_M)
+        margins = self._inner_model.link_distances(q[indices]) - self._margins
         nearest, least_margins = margins.argmin(axis=2), margins.min(axis=2)
-        half_widths, frames = half_widths[indices], self._arm.frames(q[indices])
-        origins, axes = frames[:, 1:-1, :3, 3], np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], self._axes)
-        link_positions, max_motions = frames[:, self._links + 1][:, :, :3, 3], np.zeros_like(least_margins)
-        for index in range(self._arm.n - 1, -1, -1):
-            radii = np.ones_like(max_motions)
-            if not self._arm.prismatic[index]:
-                radii = (
-                    np.linalg.norm(np.cross(link_positions - origins[:, index, None], axes[:, index, None]), axis=2)
-                    + self._link_extents
-                    + max_motions
-                )
-            max_motions += np.where(self._links >= index, radii * half_widths[:, index, None], 0.0)
+        max_motions = self._motion_kernel.rows(q[indices], half_widths[indices])
         is_deep = least_margins + max_motions < -_ROUNDING_SLACK_M
         is_blocked[indices] = is_deep.any(axis=1)
         self._blockers |= {self._object_names[index] for index in np.unique(nearest[is_deep])}
@@ -102,6 +98,29 @@ class BlockedBoxes:
     def blocker_names(self) -> str:
         """Names of the objects and the pairs of links that blocked a box so far."""
         return ", ".join(sorted(self._blockers))
+
+
+@cached_kernel
+def _link_motion_kernel(arm: ArmData, links: IndexArray, extents: FloatArray) -> Kernel:
+    """Compile the largest motion of each of ``links``, m, within half widths (n,) around a configuration (n,).
+
+    Args:
+        arm: Arm model.
+        links: (L,) index from 0 of the joint that moves each link.
+        extents: (L,) largest distance of a point of each link from its frame, m.
+    """
+    q, half_widths = kinematics.joint_symbols(arm), ca.SX.sym("half_widths", arm.n)
+    frames, _ = kinematics.body_and_joint_frames(arm, kinematics.joint_transforms(arm, q))
+    axes = [frames[index + 1][0] @ kinematics.constant_matrix(joint.axis) for index, joint in enumerate(arm.joints)]
+    motions = []
+    for link, extent in zip(links.tolist(), extents.tolist(), strict=True):
+        motion = ca.SX(0.0)
+        for index in range(link, -1, -1):
+            offset = ca.cross(frames[link + 1][1] - frames[index + 1][1], axes[index])
+            radius = 1.0 if arm.joints[index].prismatic else ca.norm_2(offset) + extent + motion
+            motion = motion + radius * half_widths[index]
+        motions.append(motion)
+    return Kernel("largest motions of links", [q, half_widths], [ca.vertcat(*motions)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,28 +168,19 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
     parts = clearance.exactness.parts
     for columns, bodies in clearance.exactness.self_collision_pairs:
         ball_pairs = [
-            (LinkCapsule(parts[a].link, tuple(x), tuple(x), radius=r), LinkCapsule(parts[b].link, tuple(y), tuple(y), radius=s))
+            (*first_ball, *second_ball)
             for a, b in bodies
             if columns and parts[a].known and parts[b].known and not (parts[a].held or parts[b].held)
-            for x, r in _list_inner_balls(parts[a])
-            for y, s in _list_inner_balls(parts[b])
+            for first_ball in _list_inner_balls(parts[a])
+            for second_ball in _list_inner_balls(parts[b])
         ]
         if ball_pairs:
-            ball_capsules = Capsules(tuple(ball for pair in ball_pairs for ball in pair))
-            lipschitz_bounds = pair_lipschitz_bounds(
-                arm, ball_capsules, [(2 * index, 2 * index + 1) for index in range(len(ball_pairs))], *limits
-            )
-            first_centers, second_centers = (np.array([pair[index].start for pair in ball_pairs]) for index in (0, 1))
-            radii = np.array([x.radius + y.radius for x, y in ball_pairs])
-            link_pair = ball_pairs[0][0].link, ball_pairs[0][1].link
-            self_pairs.append(
-                _SelfCollisionPair(
-                    clearance.pair_names[columns[0]],
-                    columns,
-                    lipschitz_bounds,
-                    (*link_pair, first_centers, second_centers, radii),
-                )
-            )
+            first_centers, first_radii, second_centers, second_radii = map(np.array, zip(*ball_pairs, strict=True))
+            links = parts[bodies[0][0]].link, parts[bodies[0][1]].link
+            distances = np.linalg.norm([first_centers, second_centers], axis=2).T
+            lipschitz_bounds = pair_lipschitz_bounds(arm, np.tile(links, (len(distances), 1)), distances, *limits)
+            balls = (*links, first_centers, second_centers, first_radii + second_radii)
+            self_pairs.append(_SelfCollisionPair(clearance.pair_names[columns[0]], columns, lipschitz_bounds, balls))
     return self_pairs
 
 

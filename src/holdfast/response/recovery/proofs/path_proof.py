@@ -14,19 +14,20 @@ from holdfast.kinematics.interval_search import prove_leg_impossible
 from holdfast.model.arm.task import Task
 from holdfast.model.failure_modes import Degraded
 from holdfast.response.recovery.continuation import RestOfPath
+from holdfast.response.recovery.goals import PoseSearch
 from holdfast.response.recovery.problem import describe_goal_violation
 from holdfast.response.recovery.proofs.reach import (
     EXACT_TOLERANCE,
     MAX_BOXES,
+    PoseProof,
     Tolerance,
     enumerate_collision_free,
     make_blocked_boxes,
     prove_unreachable,
-    proves_no_solution,
+    prove_within_tolerance,
 )
 from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
-from holdfast.response.recovery.task_rows import RowSolver
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 _MAX_PROVED_POSES = 3  # poses of a path without a configuration for which a proof is tried
 
 
-def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, solver: RowSolver, space: FreeSpace) -> Recovery:
+def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, search: PoseSearch) -> Recovery:
     """Return the recovery with a proof that the path cannot be followed, if there is one, and its validity within the
     tolerance.
 
@@ -42,41 +43,39 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, *, s
         recovery: Recovery so far.
         rest: Result along the path.
         path: Tool path.
-        solver: Solver of the rows that must be met.
-        space: Free space of the arm.
+        search: Solver of the rows that must be met, and the free space of the arm.
     """
+    solver, space = search.solver, search.space
     fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
     order = list(coarse_to_fine_indices(len(poses)))
     hardest_samples = [sample for sample in order if not is_reached[sample]][:_MAX_PROVED_POSES]
     request, q_locked = (recovery.degraded, recovery.task), np.where(space.free, recovery.at, recovery.degraded.lo)
-    constraint_proofs = (
-        (sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample]) or None) for sample in order
-    )
+    violations = ((sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample])) for sample in order)
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
-    box_proofs = (
-        (sample, enumerate_collision_free(recovery, solver, space, poses[[sample]])[2][0]) for sample in hardest_samples
-    )
-    sample_proof = next(
-        ((sample, proof) for sample, proof in chain(constraint_proofs, reach_proofs, box_proofs) if proof is not None), None
-    )
-    if sample_proof is not None:
-        hardest_samples = list(dict.fromkeys([sample_proof[0], *hardest_samples]))
-        position = f"at {100 * fractions[sample_proof[0]]:.1f} % of the tool path"
-        constraint_proof = describe_goal_violation(recovery.keep, solver.rows, poses[sample_proof[0]])
-        pose = None if constraint_proof else poses[sample_proof[0]]
-        recovery = replace(recovery, proof=f"{position} {sample_proof[1]}", proof_kind="a pose of the path", proved_pose=pose)
-    else:
+    simple_proof = next(((sample, PoseProof(text)) for sample, text in chain(violations, reach_proofs) if text), None)
+    box_proofs = ((sample, enumerate_collision_free(recovery, search, poses[[sample]])[2][0]) for sample in hardest_samples)
+    found_proof = simple_proof or next(((sample, proof) for sample, proof in box_proofs if proof is not None), None)
+    if found_proof is None:
         leg_proof = _prove_leg_impossible(*request, path, space)
         if leg_proof is None:
             return recovery
-        recovery = replace(recovery, proof=leg_proof, proof_kind="disconnected")
-    tolerance = recovery.tolerance
-    if tolerance is None:
-        return recovery
-    is_proved = any(
-        proves_no_solution(*request, poses[sample], space, tolerance) for sample in hardest_samples
-    ) or _prove_leg_impossible(*request, path, space, tolerance)
-    return replace(recovery, proved_within=bool(is_proved))
+        within = recovery.tolerance is not None and _prove_leg_impossible(*request, path, space, recovery.tolerance) is not None
+        return replace(recovery, proof=leg_proof, proof_kind="disconnected", proved_within=within)
+    proved_sample, proof = found_proof
+    is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
+    untried_samples = list(dict.fromkeys([proved_sample, *hardest_samples]))
+    if simple_proof is None:
+        untried_samples = hardest_samples[hardest_samples.index(proved_sample) + 1 :]
+    within = proof.holds_within_tolerance or any(
+        prove_within_tolerance(recovery, search, poses[sample]) is not None for sample in untried_samples
+    )
+    return replace(
+        recovery,
+        proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {proof.sentence}",
+        proof_kind="a pose of the path",
+        proved_pose=None if is_violated else poses[proved_sample],
+        proved_within=within,
+    )
 
 
 def coarse_to_fine_indices(count: int) -> Iterator[int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from holdfast.core.errors import TaskError
@@ -14,6 +16,7 @@ from holdfast.model.arm.task import Task, plane_normal
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.exact.certainty import name_certain_contacts
 from holdfast.model.failure_modes import Degraded
+from holdfast.response.recovery.goals import PoseSearch
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
 from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
@@ -47,45 +50,64 @@ def prove_unreachable(solver: RowSolver, free: BoolArray, q_locked: FloatArray, 
     return prove_by_reach_bound(arm, free, q_locked, pose, rows.m == 6, normal)
 
 
+class PoseProof(NamedTuple):
+    """Proof that no collision-free configuration meets a pose.
+
+    Attributes:
+        sentence: The proof.
+        holds_within_tolerance: True if it is also proved for everything that misses the pose by the tolerance.
+    """
+
+    sentence: str
+    holds_within_tolerance: bool = False
+
+
 def enumerate_collision_free(
-    recovery: Recovery, solver: RowSolver, space: FreeSpace, poses: FloatArray
-) -> tuple[FloatArray, IndexArray, list[str | None]]:
-    """Enumerate the collision-free configurations of poses (G, 4, 4), each pose in half of the remaining time.
+    recovery: Recovery, search: PoseSearch, poses: FloatArray
+) -> tuple[FloatArray, IndexArray, list[PoseProof | None]]:
+    """Enumerate the collision-free configurations of poses (G, 4, 4), each search in half of the remaining time.
 
     Returns:
         Configurations (K, n), the pose (K,) of each, and for each pose the proof that it has none, if there is one. A proof
         is about the rows of the task alone, so it holds for every tilt of the tool.
     """
-    goals, pose_indices, proofs = np.zeros((0, recovery.arm.n)), np.zeros(0, dtype=np.int64), list[str | None]()
-    for pose_index, pose in enumerate(poses):
-        # Isolated configurations are few, and to check them takes less time than to exclude boxes in contact.
-        blocked, solutions = None, None
-        if int(space.free.sum()) <= solver.rows.m:
-            solutions = enumerate_configurations(
-                recovery.degraded, recovery.task, pose, space.seconds_left / 2, max_boxes=_MAX_PLAIN_BOXES
-            )
-        if solutions is None or solutions.finding == SearchOutcome.OPEN:
-            blocked = make_blocked_boxes(space)
-            solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked)
-        proofs.append(prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names))
-        configurations = goals[:0] if solutions is None else solutions.q
-        configurations = (
-            configurations[space.are_valid(configurations) & solver.is_inside_cone(configurations, pose)]
-            if len(configurations)
-            else configurations
-        )
-        goals = np.concatenate([goals, configurations])
-        pose_indices = np.append(pose_indices, np.full(len(configurations), pose_index))
-    return goals, pose_indices, proofs
+    space, configurations, proofs = search.space, list[FloatArray](), list[PoseProof | None]()
+    for pose in poses:
+        within_proof = prove_within_tolerance(recovery, search, pose)  # which includes the exact pose
+        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else _enumerate_exact_pose(recovery, search, pose)
+        configurations.append(q[space.are_valid(q) & search.solver.is_inside_cone(q, pose)] if len(q) else q)
+        proofs.append(PoseProof(within_proof, True) if within_proof else PoseProof(proof) if proof else None)
+    return np.concatenate(configurations), np.repeat(np.arange(len(poses)), [len(q) for q in configurations]), proofs
 
 
-def proves_no_solution(degraded: Degraded, task: Task, pose: FloatArray, space: FreeSpace, tolerance: Tolerance) -> bool:
-    """Return True if it is proved that no collision-free configuration meets a pose (4, 4) within a tolerance, m and rad.
+def _enumerate_exact_pose(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> tuple[FloatArray, str | None]:
+    """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
+    request, space, blocked, solutions = (recovery.degraded, recovery.task, pose), search.space, None, None
+    # Isolated configurations are few, and to check them takes less time than to exclude boxes in contact.
+    if int(space.free.sum()) <= search.solver.rows.m:
+        solutions = enumerate_configurations(*request, space.seconds_left / 2, max_boxes=_MAX_PLAIN_BOXES)
+    if solutions is None or solutions.finding == SearchOutcome.OPEN:
+        blocked = make_blocked_boxes(space)
+        solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked)
+    proof = prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
+    return np.zeros((0, recovery.arm.n)) if solutions is None else solutions.q, proof
 
-    The search uses half of the remaining time.
+
+def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> str | None:
+    """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance, and return the sentence, or None.
+
+    The search uses half of the remaining time. It is omitted if a configuration that nearly meets the pose is not blocked.
     """
-    solutions = enumerate_configurations(degraded, task, pose, space.seconds_left / 2, make_blocked_boxes(space), tolerance)
-    return solutions is not None and solutions.proved_empty
+    tolerance, space = recovery.tolerance, search.space
+    if tolerance is None:
+        return None
+    blocked, near_misses = make_blocked_boxes(space), search.find_near_misses(pose, recovery.at, tolerance, recovery.seed)
+    if len(near_misses) and (blocked is None or not blocked(near_misses, np.zeros_like(near_misses)).all()):
+        return None
+    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked, tolerance)
+    if solutions is None or not solutions.proved_empty:
+        return None
+    return prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
 
 
 def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:

@@ -7,6 +7,7 @@ from typing import Any
 from holdfast.core.formatting import format_count
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import scene
+from holdfast.interface.presentation.arm_page.build import build_live_picture
 from holdfast.interface.presentation.assessment import interactive_poses
 from holdfast.interface.presentation.assessment.facts import AssessmentFacts
 from holdfast.interface.report.page import Block, Picture
@@ -39,7 +40,9 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
         text += "; the colour is the index." if len(scene.points) else "."
     if drawn_count and distribution.infinite:
         text += " Infinite values have the darkest colour."
-    return [Picture(image, text), *interactive_poses.blocks(facts, figure), _build_rotatable_view(facts)]
+    assessment = facts.assessment
+    live = build_live_picture(assessment.arm, facts.drawn_configuration[0], facts.index.task, assessment.plan.cell)
+    return [Picture(image, text), *interactive_poses.blocks(facts, figure), _build_rotatable_view(facts), live]
 
 
 def _build_rotatable_view(facts: AssessmentFacts) -> Picture:
