@@ -62,7 +62,7 @@ VALUES = named(
         "model.collision": "CheckedObject Contact",
         "kinematics.index_bounds": "AverageBound",
         "control.convergence": "Case HealthyCost Measures",
-        "control.falls": "FallContacts",
+        "control.falls": "FallContacts Sweep",
         "studies.designs": "HeldOutCheck HeldOutResult Evaluated ArmMeasures Radial Sensitivity",
         "certificates": "SearchState",
         "response.lock_survival": "Approach BaselineMotion SearchBounds LockTests VelocityJump",

@@ -87,6 +87,7 @@ export interface Answers {
   "best-worst": { q: [number[], number[]]; values: (number | null)[] };
   laws: PlayedMotion[];
   fall: PlayedMotion[];
+  stow: PlayedMotion[];
   region: Cloud;
   watch: Watch;
   /** A file that the visitor opens: a motion to play, or the address of the page of another arm. */

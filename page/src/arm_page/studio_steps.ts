@@ -356,14 +356,14 @@ class StudioPowerStep extends PowerStep<StudioPage> implements StudioStepParts {
     });
     this.page.controls.append(
       h("label", {}, h("span", {}, this.text("studio_friction")), input),
-      this.row(this.button("studio_cut", () => void this.run())),
+      this.row(this.button("studio_cut", () => void this.run()), this.button("studio_stow", () => void this.run("stow"))),
       this.forecast,
       this.playback.element,
     );
   }
 
-  async run(): Promise<void> {
-    const motions = await this.page.run("fall", { show: "fall" });
+  async run(job: "fall" | "stow" = "fall"): Promise<void> {
+    const motions = await this.page.run(job, { show: "fall" });
     if (motions) this.playback.open(motions, this.page.takeTime());
   }
 

@@ -42,11 +42,46 @@ def test_json_is_the_answer_of_the_library(ask, planar):
     assert (data["outcome"], data["compared"]) == ("rest", {})
 
 
+def test_a_friction_file_has_brakes_and_boards(ask, cli, tmp_path, planar):
+    file = tmp_path / "friction.yaml"
+    file.write_text("joint2: {coulomb: 1, brake: 30}\njoint3: {coulomb: 1, brake: 20}\nboards: {far: [joint2, joint3]}\n")
+    call = ["power-loss", "planar-3r", "--q", "10 20 30", "--degrees", "--friction", file, "--free", "board:far"]
+    friction, brakes = hf.Friction.from_file(file, planar), hf.Brakes(after=0.1, torque=[0, 30, 20])
+    data = ask(*call, "--brake-after", "100", "--band")
+    expected = hf.power_loss(planar, Q, free=[1, 2], friction=friction, brakes=brakes)
+    assert (data["free"], data["drop_m"]) == (["joint2", "joint3"], expected.drop)
+    compared = ask(*call, "--brake-after", "50", "--brake-after", "100")
+    assert compared["torque"] == [[0, 30, 20]]
+    code, out, err = cli(*call[:-1], "board:near")
+    assert (code, out) == (2, "")
+    assert err == "holdfast: board 'near' is unknown; the boards of the friction are far\n"
+    assert json.loads(cli("holds", *call[1:], "--json")[1])["free"] == ["joint2", "joint3"]
+
+
 def test_a_moving_start_falls_further(ask, planar):
     rates = np.radians([-20.0, 0, 0])
     data = ask(*CALL, "--rates", "-20 0 0")
     assert data["drop_m"] == hf.power_loss(planar, Q, rates, friction=FRICTION).drop
     assert data["drop_m"] > ask(*CALL)["drop_m"]
+
+
+def test_the_drop_is_that_of_any_point(ask, cli, planar):
+    data = ask(*CALL, "--of", "any point")
+    expected = hf.power_loss(planar, Q, friction=FRICTION, of="any point")
+    assert (data["of"], data["drop_m"]) == ("any point", expected.drop)
+    assert data["drop_m"] >= ask(*CALL)["drop_m"]
+    words = " ".join(cli(*CALL, "--of", "any point")[1].split())
+    assert f"A point of the arm falls {expected.drop:.3g} m within" in words
+    assert "largest drop of any point" in words
+
+
+def test_the_swept_space_is_printed_and_drawn(ask, cli, tmp_path, planar):
+    swept = hf.power_loss(planar, Q, friction=FRICTION, duration=0.3).sweep()
+    assert ask(*CALL, "--duration", "0.3", "--sweep")["sweep"]["volume_m3"] == [swept.lower_volume, swept.upper_volume]
+    code, out, _ = cli(*CALL, "--duration", "0.3", "--sweep", "--out", tmp_path)
+    assert code == 0
+    assert f"{1000 * swept.lower_volume:.3g} to {1000 * swept.upper_volume:.3g} L" in " ".join(out.split())
+    assert "Points bound the swept space" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 def test_the_band_is_compared(ask, cli, planar):
@@ -172,6 +207,7 @@ def test_the_page_shows_both_simulations(cli, tmp_path):
         ([*CALL, "--restitution", "2"], "restitution is 2"),
         ([*CALL, "--duration", "-1"], "duration is -1 s"),
         ([*CALL, "--accuracy", "0"], "accuracy is 0 m"),
+        ([*CALL, "--of", "elbow"], "of is 'elbow'; use 'tool' or 'any point'"),
         ([*CALL, "--stiction", "1"], "below its coulomb friction"),
         ([*CALL, "--radius", "0.1", "--physics"], "there is none; add --cell"),
         (["power-loss", "planar-3r"], "give one of --q, --along, and --anywhere"),
@@ -180,6 +216,8 @@ def test_the_page_shows_both_simulations(cli, tmp_path):
         (["power-loss", "planar-3r", "--anywhere", "--below", "0"], "below is 0"),
         (["power-loss", "planar-3r", "--anywhere", "--below", "1", "--measure", "fun"], "measure is"),
         (["power-loss", "planar-3r", "--along", "/nowhere.csv"], "/nowhere.csv"),
+        (["power-loss", "planar-3r", "--anywhere", "--below", "1", "--sweep"], "describe one fall; give --q"),
+        ([*CALL, "--brake-after", "1", "--brake-after", "2", "--brake-torque", "3", "--band"], "and at most one brake"),
         ([*CALL[:1], "planar-3r", "--anywhere", "--brake-after", "1", "--brake-after", "2", "--brake-torque", "3"], "give --q"),
         ([*CALL, "--csv", "/nowhere/motion.csv"], "cannot write motion"),
         ([*CALL, "--plot", "/nowhere/motion.png"], "cannot write picture"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -33,6 +35,19 @@ def test_exit_code_3_if_nothing_holds(cli):
     code, out, _ = cli("stow", "panda", "--coulomb", "0.01", "--factor", "5", "--samples", "200")
     assert "smallest drop" in out or code == 0
     assert code in (0, 3)
+
+
+def test_an_arm_that_only_lies_on_the_floor_has_exit_code_3(cli, tmp_path):
+    cell = tmp_path / "cell.yaml"
+    cell.write_text("objects:\n  floor: {half_space: [0, 1, 0], pose: {xyz: [0, -0.5, 0]}}\n")
+    call = ["stow", "planar-3r", "--coulomb", "1e-9", "--viscous", "1", "--samples", "300", "--cell", cell, "--radius", "0.05"]
+    code, out, _ = cli(*call)
+    assert code == 3
+    assert "found by simulating 20 falls in MuJoCo, which is no proof" in " ".join(out.split())
+    assert "Friction and stops do not hold the arm in this configuration." in out
+    code, out, _ = cli(*call, "--json")
+    assert code == 3
+    assert json.loads(out)["resting"]["outcome"] == "rest"
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
-from holdfast.interface.studio.compute import find_region_cloud
+from holdfast.interface.studio.compute import find_region_cloud, plan_stow_motion
 from holdfast.interface.studio.machine import CompiledArm
 from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import Cancelled, WorkerProcess
@@ -93,6 +93,22 @@ def test_region_is_coloured_by_the_index_of_its_configurations(aside, arm, tmp_p
     other = State("planar-2r", two.joint_names, (0.1, 0.2), task="planar", region=str(tmp_path / "run"))
     with pytest.raises(hf.InputError, match="is an assessment of 'planar-3r'"):
         find_region_cloud(CompiledArm(two, as_task(two, "planar")), other, lambda *_: None)
+
+
+def test_stow_plays_the_path_of_the_library(aside):
+    panda = hf.arms.load("panda")
+    q = tuple(np.radians([0.0, -45, 0, -135, 0, 90, 45]).tolist())
+    state = State("panda", panda.joint_names, q, task="pose", friction=3.0)
+    (motion,) = plan_stow_motion(CompiledArm(panda, as_task(panda, "pose")), state, lambda *_: None)
+    path = np.array(motion["q"])
+    np.testing.assert_allclose(path[0], q, atol=1e-12)
+    friction = hf.Friction(coulomb=3.0)
+    assert hf.holds(panda, path[-1], friction=friction).holds
+    limits = np.array([joint.velocity for joint in panda.joints])
+    assert (np.abs(np.diff(path, axis=0)) <= limits * np.diff(motion["time"])[:, None] + 1e-9).all()
+    assert motion["unit"] == "s"
+    with pytest.raises(hf.HoldfastError, match="speed limit"):
+        go(aside, "stow", state_of(hf.arms.load("planar-3r"), friction=30.0))
 
 
 def test_errors_come_back_and_the_process_goes_on(aside, arm):

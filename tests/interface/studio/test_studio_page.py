@@ -203,6 +203,12 @@ def test_power_loss_uses_dry_friction(studio, visit):
     click(page, "Cut the power")
     finish(page)
     assert np.abs(ghosts(page)[0] - configuration(page)).max() > 0.3
+    page.get_by_label("Dry friction, N m").fill("3")
+    page.keyboard.press("Tab")
+    click(page, "Stow")
+    finish(page)
+    assert "The arm holds: " in page.locator(".step-controls").inner_text()
+    page.wait_for_function(f"Math.max(...{PAGE}.step.ghosts[0].map((q, k) => Math.abs(q - {PAGE}.state.q[k]))) > 0.1")
 
 
 # ---- objects -------------------------------------------------------------------------------------------------------------

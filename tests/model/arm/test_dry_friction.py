@@ -159,10 +159,51 @@ def test_a_friction_file_states_some_joints_and_the_arm_the_others(tmp_path):
     np.testing.assert_array_equal(read.viscous[2:], stated.viscous[2:])
 
 
+def test_a_friction_file_names_brakes_and_boards(tmp_path):
+    arm = hf.arms.load("panda")
+    file = tmp_path / "friction.yaml"
+    file.write_text(
+        "panda_joint2: {coulomb: 0.5, brake: 30}\npanda_joint4: {brake: 20}\n"
+        "boards: {upper: [panda_joint2, panda_joint4], wrist: [4, 5, 6]}\n"
+    )
+    friction = hf.Friction.from_file(file, arm)
+    brakes = hf.Brakes.from_file(file, arm, after=0.05)
+    assert (brakes.after, list(brakes.torque)) == (0.05, [0, 30, 0, 20, 0, 0, 0])
+    q = np.deg2rad([0, -45, 0, -135, 0, 90, 45])
+    options = {"friction": friction, "brakes": brakes, "duration": 0.2}
+    for free, joints in (("board:upper", [1, 3]), ("board: wrist, 2", [1, 4, 5, 6]), (["board:upper", 6], [1, 3, 6])):
+        fall, expected = (hf.power_loss(arm, q, free=names, **options) for names in (free, joints))
+        assert fall.free == tuple(joints)
+        np.testing.assert_array_equal(fall.q_final, expected.q_final)
+        assert hf.holds(arm, q, free=free, friction=friction).free == tuple(joints)
+        assert hf.susceptibility.tool_drop_with_friction(arm, friction, free).free == tuple(joints)
+    rates = np.ones((5, 7))
+    curve = hf.power_loss_along(
+        arm, np.tile(q, (5, 1)), np.arange(5.0), rates=rates, free="board:upper", refine=False, **options
+    )
+    np.testing.assert_array_equal(curve.falls.rates, np.tile([0, 1, 0, 1, 0, 0, 0], (5, 1)))
+    for call in (hf.power_loss, hf.holds):
+        with pytest.raises(hf.InputError, match="board 'base' is unknown; the boards of the friction are upper, wrist"):
+            call(arm, q, free="board:base", friction=friction)
+        with pytest.raises(hf.InputError, match="the boards of the friction are none"):
+            call(arm, q, free="board:upper")
+
+
+def test_a_file_without_brakes_describes_none(tmp_path):
+    file = tmp_path / "friction.yaml"
+    file.write_text("panda_joint2: {coulomb: 0.5}\n")
+    with pytest.raises(hf.InputError, match="no joint has a brake; give its torque in N m as the key brake of a joint"):
+        hf.Brakes.from_file(file, hf.arms.load("panda"), after=0.1)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("elbow: {coulomb: 1}", "elbow"),
+        ("boards: [panda_joint2]", "give a list of joints for each name of a board"),
+        ("boards: {upper: panda_joint2}", "give a list of joints for each name of a board"),
+        ("boards: {upper: [elbow]}", "elbow"),
+        ("panda_joint2: {brake: -1}", "brake of joint 'panda_joint2'"),
         ("panda_joint2: {colomb: 1}", "give it a mapping with keys from coulomb, stiction, viscous, load"),
         ("panda_joint2: 3", "joint 'panda_joint2' has 3; give it a mapping"),
         ("panda_joint2: {coulomb: many}", "coulomb of joint 'panda_joint2'"),

@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from falling_arms import pendulum
+from falling_arms import LENGTH, pendulum
 
 pytestmark = pytest.mark.filterwarnings("error")
 FRICTION = hf.Friction(coulomb=[2.0, 8.0, 2.0, 4.0, 0.5, 0.5, 0.2], viscous=0.5)
@@ -70,7 +70,30 @@ def test_without_a_holding_configuration_the_smallest_drop_is_returned(panda):
     weak = hf.stow(panda, where=region, friction=hf.Friction(coulomb=0.1, viscous=0.5), samples=500)
     assert not weak.holds
     assert weak.found == 0
+    assert weak.fall.of == "any point"
+    assert weak.resting is None
     assert weak.fall.drop > 0
+
+
+def test_without_a_holding_configuration_the_arm_lies_down_on_the_floor():
+    arm, floor = pendulum(lower=-1.5, upper=1.5), hf.Cell([hf.cell.HalfSpace("floor", pose=[0, 0, -0.4])])
+    ball = hf.Capsules((hf.collision.LinkCapsule(0, (LENGTH, 0, 0), (LENGTH, 0, 0), radius=0.05),))
+    clearance = hf.Clearance(arm, ball, floor, itself=False)
+    options = {"friction": hf.Friction(viscous=0.0), "where": hf.Region.joints([-1.4], [1.4]), "samples": 500}
+    lying = hf.stow(arm, clearance=clearance, **options)
+    height = 0.4 - 0.05 + LENGTH * np.sin(lying.q[0])  # of the ball above the floor
+    assert 0 < height < 0.01
+    assert not lying.holds
+    assert lying.fall.drop == pytest.approx(height, abs=1e-3)
+    assert lying.resting.outcome == "rest"
+    assert lying.resting.drop == pytest.approx(height, abs=2e-3)
+    assert [contact.object for contact in lying.resting.contacts] == ["floor"]
+    words = " ".join(lying.describe())
+    assert "the arm then lies still, in contact with floor" in words
+    assert "which is no proof" in words
+    assert lying.to_dict()["resting"]["drop_m"] == lying.resting.drop
+    assert hf.stow(arm, clearance=False, **options).resting is None
+    assert hf.stow(arm, clearance=clearance, **options | {"friction": hf.Friction(coulomb=30.0)}).resting is None
 
 
 def dense(path, count=40):

@@ -10,3 +10,4 @@ from holdfast.control.falls.physical import PhysicalFall as PhysicalFall
 from holdfast.control.falls.power_cut import power_loss as power_loss
 from holdfast.control.falls.probability import DropProbability as DropProbability
 from holdfast.control.falls.probability import power_loss_probability as power_loss_probability
+from holdfast.control.falls.sweep import Sweep as Sweep

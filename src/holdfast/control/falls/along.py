@@ -8,8 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.falls.fall import PowerLoss
-from holdfast.control.falls.measures import measure_fall
+from holdfast.control.falls.fall import PowerLoss, measure_fall
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
@@ -128,7 +127,8 @@ def power_loss_along(
             f"joint '{arm.joint_names[joint]}' moves at {speeds[row, joint]:.4g} rad/s at {instants[row]:g} s; if q is in "
             "degrees, convert it to rad"
         )
-    free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free")))
+    boards = getattr(options.get("friction"), "boards", None)
+    free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free"), boards))
 
     def simulate(rows: FloatArray, row_rates: FloatArray) -> PowerLoss:
         return power_loss(arm, rows, row_rates * free, **options).require_ok()

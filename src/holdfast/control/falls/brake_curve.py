@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.falls.brakes import Brakes
+from holdfast.control.falls.drop_points import DropOf
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
@@ -30,9 +31,10 @@ class BrakeComparison(Result):
         q: (n,) configuration at the power loss, rad and m.
         rates: (n,) joint rates at the power loss, rad/s and m/s.
         friction: Friction of the joints as requested; None as the arm states.
+        of: ``tool``, or ``any point`` of the arm, whose drop was computed.
         after: (A,) times from the power loss until the brakes act, s.
         torque: (B, n) brake torque of each joint, N m or N.
-        drop: (B, A) largest displacement of the tool along gravity, m.
+        drop: (B, A) largest displacement along gravity, m.
         drop_at_brake: (A,) the same until the brakes act, m: the drop if they stopped the arm at once.
         drop_without: Drop without brakes, m.
         need: (n,) brake torque that holds each joint of the arm at rest in q, N m or N; below 0 if a stop carries it.
@@ -42,6 +44,7 @@ class BrakeComparison(Result):
     q: FloatArray
     rates: FloatArray
     friction: Friction | None
+    of: DropOf
     after: FloatArray
     torque: FloatArray
     drop: FloatArray
@@ -100,6 +103,7 @@ def compare_brakes(
         q=start,
         rates=unbraked.rates,
         friction=friction,
+        of=unbraked.of,
         after=delays,
         torque=torques,
         drop=drops,

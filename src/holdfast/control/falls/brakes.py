@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
 
 import numpy as np
 
 from holdfast.core.errors import InputError
 from holdfast.core.typing import FloatArray
 from holdfast.core.validation import check_constructor
-from holdfast.model.arm.friction import JointNumbers, joint_numbers
+from holdfast.model.arm.friction import JointNumbers, joint_numbers, read_friction_file
 from holdfast.model.arm.model import Arm
 
 
@@ -28,6 +30,23 @@ class Brakes:
     after: float
     torque: JointNumbers
     damping: JointNumbers = 0.0
+
+    @classmethod
+    def from_file(cls, path: str | Path, arm: Arm, after: float) -> Self:
+        """Read the torque ``brake`` of each joint, N m or N, from a friction file; see :meth:`holdfast.Friction.from_file`.
+
+        Args:
+            path: The file; a joint without ``brake`` has no brake.
+            arm: The arm.
+            after: Time from the power loss until the brakes act, s.
+
+        Raises:
+            InputError: The file is wrong, or no joint in it has a brake.
+        """
+        entries, _ = read_friction_file(path, arm)
+        if not any("brake" in entry for entry in entries.values()):
+            raise InputError(f"{path}: no joint has a brake; give its torque in N m as the key brake of a joint")
+        return cls(after=after, torque=[entries.get(k, {}).get("brake", 0.0) for k in range(arm.n)])
 
     def of_joints(self, arm: Arm) -> dict[str, FloatArray]:
         """Return ``brake_torque`` and ``brake_damping``, each (n,).

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import FallContacts
+from holdfast.control.falls.drop_points import DropOf
 from holdfast.control.falls.simulator import FallSimulator, FallStates
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
@@ -27,8 +28,13 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 
 if TYPE_CHECKING:
     from holdfast.control.falls.physical import PhysicalFall
+    from holdfast.control.falls.sweep import Sweep
 
+FallMeasure = Literal["drop", "released", "impact_speed", "impact_energy"]
+MEASURE_UNITS: dict[str, str] = {"drop": "m", "released": "J", "impact_speed": "m/s", "impact_energy": "J"}
 MAX_STEP_S = 0.02  # s, of all simulations of falls
+SWEEP_INSTANTS = 2001
+Falls = TypeVar("Falls", "PowerLoss", FallContacts)
 
 
 class FallOutcome(SentenceEnum):
@@ -64,7 +70,8 @@ class PowerLoss(Result):
         step: (N,) longest time step, s.
         q_final: (N, n) configurations at the end, rad and m.
         rates_final: (N, n) joint rates at the end, rad/s and m/s.
-        drop: (N,) largest displacement of the tool point along gravity within the duration, m.
+        of: ``tool``, or ``any point`` of the arm, whose drop was computed.
+        drop: (N,) largest displacement of the tool point, or of any point, along gravity within the duration, m.
         released: (N,) energy released, J: potential and kinetic energy at the power loss, minus the potential energy at the
             end. The part that is not kinetic energy at the end was dissipated.
         rest_time: (N,) time from which on all joints are at rest, s; NaN if a joint still moves.
@@ -85,6 +92,7 @@ class PowerLoss(Result):
     restitution: float
     stops: bool
     duration: float
+    of: DropOf
     step: FloatArray
     q_final: FloatArray
     rates_final: FloatArray
@@ -135,13 +143,12 @@ class PowerLoss(Result):
         return self._evaluate_at(time, lambda states: states.tool)
 
     def drop_at(self, time: ArrayLike) -> FloatArray:
-        """Return the displacements (N,) of the tool point along gravity, m, at a time, s; (N, T) for times (T,).
+        """Return the displacements (N,) along gravity, m, of the tool or of any point at a time, s; (N, T) for times (T,).
 
-        The displacement is negative where the tool is above its initial position.
+        The displacement is negative where the point is above its initial position.
         """
-        displacement = self.tool_at(time)
-        start = self._simulator.tool_points(np.atleast_2d(self.q)).reshape(*self.q.shape[:-1], *[1] * np.ndim(time), 3)
-        return np.asarray((displacement - start) @ self._simulator.stepper.down)
+        q, points = self.q_at(time), self._simulator.points
+        return points.drops(self.arm, self.q.reshape(*self.q.shape[:-1], *[1] * np.ndim(time), self.arm.n), q)
 
     def to_csv(self, file: str | Path) -> Path:
         """Write the motion of a single fall to ``file`` as rows every 10 ms, with the columns of a physical fall.
@@ -187,20 +194,13 @@ class PowerLoss(Result):
         """
         from holdfast.control.falls.physical import simulate_contacts
 
-        rows = len(self)
-        if not (row is None and rows == 1) and not (row is not None and 0 <= row < rows):
-            raise InputError(f"row is {row}; give the number of one fall, from 0 to {rows - 1}")
         if not 0 < step <= MAX_STEP_S:
             raise InputError(f"step is {step:g} s; it must be above 0 and at most {MAX_STEP_S:g} s")
-        q, rates = (np.atleast_2d(states)[row or 0] for states in (self.q, self.rates))
-        if not np.isfinite([q, rates]).all():
-            raise InputError(
-                f"the state in row {row or 0} holds NaN or infinity, so it cannot be simulated; choose another row"
-            )
+        fall = self._select_row(row)
         return simulate_contacts(
             self.arm,
-            q,
-            rates,
+            fall.q,
+            fall.rates,
             free=self.free,
             friction=self.friction,
             brakes=self.brakes,
@@ -208,7 +208,46 @@ class PowerLoss(Result):
             duration=self.duration,
             clearance=chosen_clearance(self.arm, self.clearance if clearance is None else clearance, cell),
             step=step,
+            of=self.of,
+            points=self._simulator.points,
         )
+
+    @check_arguments
+    def sweep(self, row: int | None = None, *, voxel: float = 5e-3) -> Sweep:
+        """Compute the space that the moving links sweep during one fall, until its first contact if contacts were searched for.
+
+        Args:
+            row: Number of the fall, from 0. Default: the only one.
+            voxel: Size of the voxels, m.
+
+        Returns:
+            A :class:`holdfast.control.falls.Sweep`.
+
+        Raises:
+            InputError: A wrong row or voxel, or a collision model without moving links.
+        """
+        from holdfast.control.falls.sweep import sweep_spheres
+        from holdfast.model.collision.cover import choose_capsules
+
+        fall = self._select_row(row)
+        contact_time = np.nan if fall.contacts is None else fall.contacts.time
+        q = fall.q_at(np.linspace(0.0, np.nanmin([self.duration, fall.rest_time, contact_time]), SWEEP_INSTANTS))
+        if not np.isfinite(q).all():
+            raise InputError(f"the fall in row {row or 0} could not be simulated, so its sweep is unknown; choose another row")
+        capsules = choose_capsules(self.arm) if self.clearance is None else self.clearance.capsules
+        return sweep_spheres(self.arm, capsules, q, voxel)
+
+    def _select_row(self, row: int | None) -> PowerLoss:
+        """Return the fall of one row, which has a finite state."""
+        rows = len(self)
+        if not (row is None and rows == 1) and not (row is not None and 0 <= row < rows):
+            raise InputError(f"row is {row}; give the number of one fall, from 0 to {rows - 1}")
+        fall = self if self.q.ndim == 1 else _take_row(self, row or 0)
+        if not np.isfinite([fall.q, fall.rates]).all():
+            raise InputError(
+                f"the state in row {row or 0} holds NaN or infinity, so it cannot be simulated; choose another row"
+            )
+        return fall
 
     def energies_at(self, time: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the energy released and the kinetic energy (T,), J, of a single fall at times (T,), s."""
@@ -241,3 +280,24 @@ class PowerLoss(Result):
         values = np.full((len(q), repeat, selected.shape[1]), np.nan)
         values[rows] = selected.reshape(count, repeat, selected.shape[1])
         return values.reshape(*self.q.shape[:-1], *times.shape, selected.shape[1])
+
+
+def measure_fall(fall: PowerLoss, measure: FallMeasure) -> FloatArray:
+    """Return a measure (N,) of each fall: its drop, its released energy, or the speed or energy of its first contact.
+
+    Speed and energy are NaN for a fall without contact.
+    """
+    if measure in ("drop", "released"):
+        return np.asarray(getattr(fall, measure))
+    if fall.contacts is None:
+        return np.full(np.shape(fall.drop), np.nan)
+    return fall.contacts.normal_speed if measure == "impact_speed" else fall.contacts.energy_lost
+
+
+def _take_row(falls: Falls, row: int) -> Falls:
+    """Return the part of a result, or of its contacts, that belongs to one fall."""
+    values = {each.name: getattr(falls, each.name) for each in fields(falls)}
+    parts: dict[str, Any] = {name: value[row] for name, value in values.items() if isinstance(value, np.ndarray)}
+    if isinstance(falls, PowerLoss) and falls.contacts is not None:
+        parts["contacts"] = _take_row(falls.contacts, row)
+    return replace(falls, **parts)

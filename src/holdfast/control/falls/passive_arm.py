@@ -6,8 +6,8 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import casadi as ca
-import numpy as np
 
+from holdfast.control.falls.drop_points import DropPoints, find_down_direction
 from holdfast.control.simulation.system import ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
 from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
@@ -27,22 +27,21 @@ class PassiveArm:
 
     The parameters of a row are the mask ``free`` of the joints that lose their torque (n,); Coulomb friction, stiction, and
     brake torque (n,), N m or N; the ``load`` share of friction (n,); viscous friction and the damping of the brakes (n,),
-    N m s/rad or N s/m; the ``brake_time``, s; the coefficient of ``restitution`` of the stops; the end ``until``, s; and the
-    ``longest_step``, s.
+    N m s/rad or N s/m; the ``brake_time``, s; the coefficient of ``restitution`` of the stops; the end ``until``, s; the
+    ``longest_step``, s; and the coordinates ``start_depth`` (P,) along gravity, m, of the points whose drop is computed.
     """
 
     steps_per_call = 1
     layout: ColumnLayout
 
-    def __init__(self, arm: Arm) -> None:
-        self.arm = arm
-        self.made_of: object = arm
+    def __init__(self, arm: Arm, points: DropPoints | None = None) -> None:
+        self.arm, self.points = arm, points or DropPoints.choose(arm)
+        self.made_of: object = arm, self.points
         sizes = dict.fromkeys(("free", "coulomb", "stiction", "load", "viscous", "brake_torque", "brake_damping"), arm.n)
         sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1)
+        sizes["start_depth"] = len(self.points.links)
         self.symbols = {name: ca.SX.sym(name, size) for name, size in sizes.items()}
         self.parameters = ParameterLayout(**self.symbols)
-        norm = float(np.linalg.norm(arm.gravity))
-        self.down = arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
 
     @cached_property
     @cached_kernel
@@ -68,14 +67,21 @@ class PassiveArm:
         step = ca.if_else(remaining <= longest * (1 + 1e-9), remaining, longest)
         return ca.if_else(self.is_braked(time), step, elementwise_min(step, self.symbols["brake_time"] - time))
 
-    def depth(self, q: SX) -> SX:
-        """Return the coordinate of the tool point along gravity, m."""
-        position = kinematics.split_transform(self.arm.tool)[1]
+    def drop(self, q: SX) -> SX:
+        """Return the displacement along gravity, m, of the point that has dropped most."""
+        rotation, position = kinematics.split_transform(self.arm.base)
+        down, depths = ca.SX(find_down_direction(self.arm)), []
+        depth, down = ca.dot(down, position), rotation.T @ down  # of the origin of a frame, and in its axes
         steps = kinematics.joint_transforms(self.arm, q)
-        for joint, (rotation, translation) in reversed(list(zip(self.arm.joints, steps, strict=True))):
-            link_rotation, offset = kinematics.split_transform(joint.origin)
-            position = offset + link_rotation @ (translation + rotation @ position)
-        return ca.dot(self.down, kinematics.constant_matrix(self.arm.base[:3, :3]) @ position + self.arm.base[:3, 3])
+        for link, (joint, step) in enumerate(zip(self.arm.joints, steps, strict=True)):
+            for rotation, position in (kinematics.split_transform(joint.origin), step):
+                depth, down = depth + ca.dot(down, position), rotation.T @ down
+            depths += [
+                depth + ca.dot(down, ca.SX(point))
+                for point_link, point in zip(self.points.links, self.points.positions, strict=True)
+                if point_link == link
+            ]
+        return largest(ca.vertcat(*depths) - self.symbols["start_depth"])
 
     def accelerations(self, q: SX, rates: SX, damping: SX) -> SX:
         """Return the joint accelerations (n,) with viscous friction alone; joints that are not free have none."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.falls.brakes import Brakes
+from holdfast.control.falls.drop_points import DropOf, DropPoints
 from holdfast.control.physics.surroundings import ContactLog, add_cell_objects, add_link_contacts
 from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
@@ -42,6 +43,7 @@ class PhysicalFall(Result):
         free: Indices from 0 of the joints that lost their torque.
         friction: Friction of each joint.
         brakes: Brakes; None without.
+        of: ``tool``, or ``any point`` of the arm, whose drop is computed.
         time: (T,) time since the power loss, s.
         q: (T, n) configurations, rad and m.
         rates: (T, n) joint rates, rad/s and m/s.
@@ -55,12 +57,14 @@ class PhysicalFall(Result):
     free: tuple[int, ...]
     friction: JointFriction
     brakes: Brakes | None
+    of: DropOf
     time: FloatArray
     q: FloatArray
     rates: FloatArray
     outcome: Literal["rest", "moving"]
     cell: Cell | None
     contacts: tuple[Contact, ...] | None
+    _points: DropPoints = field(repr=False, compare=False)
 
     @cached_property
     def tool_position(self) -> FloatArray:
@@ -69,18 +73,16 @@ class PhysicalFall(Result):
 
     @cached_property
     def drops(self) -> FloatArray:
-        """(T,) displacement of the tool point along gravity since the power loss, m."""
-        norm = float(np.linalg.norm(self.arm.gravity))
-        down = self.arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
-        return np.asarray((self.tool_position - self.tool_position[0]) @ down)
+        """(T,) displacement of the tool point, or of any point, along gravity since the power loss, m."""
+        return self._points.drops(self.arm, self.q[:1], self.q)
 
     @property
     def drop(self) -> float:
-        """Largest displacement of the tool point along gravity, m."""
+        """Largest displacement of the tool point, or of any point, along gravity, m."""
         return float(self.drops.max())
 
     def drop_at(self, time: ArrayLike) -> FloatArray:
-        """Return the displacement of the tool point along gravity, m, at a time, s; (T,) for times (T,).
+        """Return the displacement of ``drops``, m, at a time, s; (T,) for times (T,).
 
         After the end of the simulation, the displacement is that of the last time step.
         """
@@ -119,6 +121,8 @@ def simulate_contacts(
     duration: float,
     clearance: Clearance | None,
     step: float,
+    of: DropOf,
+    points: DropPoints,
 ) -> PhysicalFall:
     """Simulate the fall from one state in MuJoCo; see :meth:`holdfast.PowerLoss.physical` for the arguments and errors."""
     mujoco, joints = import_mujoco(), sorted(free)
@@ -163,12 +167,14 @@ def simulate_contacts(
         free=tuple(joints),
         friction=friction,
         brakes=brakes,
+        of=of,
         time=step * np.arange(len(positions), dtype=np.float64),
         q=_configuration(q, joints, np.array(positions)),
         rates=motion_rates,
         outcome=outcome,  # type: ignore[arg-type]
         cell=log.cell,
         contacts=log.list_contacts(),
+        _points=points,
     )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.falls.brakes import Brakes
 from holdfast.control.falls.contact import REQUIRED_GAP_M, ContactSearch, FallContacts, collect_contact_fields
+from holdfast.control.falls.drop_points import DropOf, DropPoints
 from holdfast.control.falls.fall import MAX_STEP_S, FallOutcome, PowerLoss
 from holdfast.control.falls.passive_arm import energy_kernel
 from holdfast.control.falls.simulator import FallSimulator, FallStates
@@ -49,6 +50,7 @@ def power_loss(
     cell: CellLike | None = None,
     step: float = 2e-3,
     accuracy: float | None = None,
+    of: DropOf = "tool",
 ) -> PowerLoss:
     """Simulate how an arm falls after its joints lose their torque.
 
@@ -64,7 +66,7 @@ def power_loss(
             limit starts at the limit.
         rates: (n,) or (N, n) joint rates at the power loss, rad/s and m/s. Default: all joints are at rest.
         free: Joints that lose their torque: names and indices from 0, or one text with names and numbers from 1 between
-            commas. Default: all joints.
+            commas, and ``board:NAME`` for a board of the friction. Default: all joints.
         friction: Friction of the joints. Default: as the arm states.
         brakes: Brakes of the joints in ``free``. Default: none.
         restitution: Ratio of the speeds of a joint after and before it hits its stop, 0 to 1.
@@ -76,6 +78,8 @@ def power_loss(
         step: Longest time step, s, at most 0.02 s.
         accuracy: Largest ``error`` of a fall, m. The step of a fall is halved up to 6 times to reach it; falls that do not
             reach it have the status ``INACCURATE``. Default: the step is not changed.
+        of: Point whose drop is computed: ``tool``, or ``any point``: the one that drops most, of the tool point and the centers
+            of the spheres that cover the links in the collision model.
 
     Returns:
         A :class:`holdfast.PowerLoss`. A row with NaN has the status ``BAD_INPUT``.
@@ -88,7 +92,7 @@ def power_loss(
     Source: Moreau 1988 for the steps with dry friction and impacts.
     """
     starts, start_rates, is_single = _check_states(arm, q, rates)
-    joints = read_joint_set(arm, free)
+    joints = read_joint_set(arm, free, None if friction is None else friction.boards)
     _check_options(restitution, duration, step, accuracy)
     require_possible_inertia(arm)
     is_free = np.zeros(arm.n)
@@ -110,10 +114,11 @@ def power_loss(
     inertia = _require_inertia(arm, starts[is_finite], joints)
     damping = np.asarray(conditions["viscous"]) + conditions["brake_damping"]
     is_stiff = bool((damping[list(joints)] * step > STIFF_RATIO * inertia).any())
-    simulator = FallSimulator(arm, stops, conditions, is_stiff)
     steps = np.full(len(starts), float(step))
     rows = np.flatnonzero(is_finite)
     model = chosen_clearance(arm, clearance, cell, looks=False)
+    points = DropPoints.choose(arm, of, None if model is None else model.capsules)
+    simulator = FallSimulator(arm, stops, conditions, is_stiff, points)
     runner: FallSimulator | ContactSearch = simulator
     if model is not None:
         _check_start_contacts(model, starts[rows], rows)
@@ -144,6 +149,7 @@ def power_loss(
         restitution=float(restitution),
         stops=stops,
         duration=float(duration),
+        of=of,
         contacts=None if model is None else FallContacts(pair_names=tuple(model.pair_names), **contacts),
         clearance=model,
         _simulator=simulator,

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.falls.fall import PowerLoss
-from holdfast.control.falls.measures import MEASURE_UNITS, FallMeasure, measure_fall
+from holdfast.control.falls.fall import MEASURE_UNITS, FallMeasure, PowerLoss, measure_fall
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.probability.intervals import Interval

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from holdfast.control.falls.drop_points import DropPoints
 from holdfast.control.falls.passive_arm import energy_kernel
 from holdfast.control.falls.smooth import SmoothStepper
 from holdfast.control.falls.stepping import DryFrictionStepper
@@ -29,7 +30,7 @@ class FallStates:
         q: (N, n) configurations, rad and m.
         rates: (N, n) joint rates, rad/s and m/s.
         tool: (N, 3) tool points in the world, m.
-        drop: (N,) largest displacement of the tool along gravity so far, m.
+        drop: (N,) largest displacement of a point along gravity so far, m.
         time: (N,) time of the state, s.
         residual: (N,) largest torque or force by which a step contradicts the laws of friction and contact, N m or N.
         is_at_rest: (N,) True if no joint moves any more.
@@ -62,18 +63,28 @@ class FallSimulator:
         conditions: Parameters of :class:`holdfast.control.falls.passive_arm.PassiveArm`, all of them except ``until`` and
             ``longest_step``.
         is_stiff: True if explicit steps would diverge, so that implicit ones are needed also without dry friction and stops.
+        points: Points whose drop is computed. Default: the tool point.
     """
 
-    def __init__(self, arm: Arm, has_stops: bool, conditions: dict[str, FloatArray | float], is_stiff: bool = False) -> None:
+    def __init__(
+        self,
+        arm: Arm,
+        has_stops: bool,
+        conditions: dict[str, FloatArray | float],
+        is_stiff: bool = False,
+        points: DropPoints | None = None,
+    ) -> None:
         self.arm, self.has_stops, self.conditions, self.is_stiff = arm, has_stops, conditions, is_stiff
         has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
-        self.stepper = compiled_stepper(arm, has_limits) if has_limits or is_dry or is_stiff else compiled_smooth_stepper(arm)
+        is_smooth = not (has_limits or is_dry or is_stiff)
+        self.stepper = compiled_smooth_stepper(arm, points) if is_smooth else compiled_stepper(arm, points, has_limits)
+        self.points = self.stepper.points
         self.energy_kernel: Kernel = energy_kernel(arm)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Leave the compiled loops out of a pickle."""
-        return FallSimulator, (self.arm, self.has_stops, self.conditions, self.is_stiff)
+        return FallSimulator, (self.arm, self.has_stops, self.conditions, self.is_stiff, self.points)
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to given times.
@@ -94,10 +105,10 @@ class FallSimulator:
         states = np.zeros((len(q), self.stepper.layout.size))
         parts = self.stepper.layout.view_parts(states)
         parts["q"][:], parts["rates"][:] = q, rates
-        parts["deepest"][:, 0] = self.tool_points(q) @ self.stepper.down
         parameters = self.stepper.parameters.make_rows(len(q), **self.conditions)
         columns = self.stepper.parameters.view_parts(parameters)
         columns["until"][:, 0], columns["longest_step"][:, 0] = until, step
+        columns["start_depth"][:] = self.points.depths(self.arm, q)
         return states, parameters, int(np.ceil((until / step).max(initial=0.0)) + 100) * MOST_CALLS_PER_STEP
 
     def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
@@ -109,12 +120,11 @@ class FallSimulator:
         """Return the states of falls from ``starts`` (N, n) from the states of the loop."""
         parts = self.stepper.layout.view_parts(states)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
-        tool, down = self.tool_points(end), self.stepper.down
         return FallStates(
             q=end,
             rates=parts["rates"].copy(),
-            tool=tool,
-            drop=np.maximum(parts["deepest"][:, 0], tool @ down) - self.tool_points(starts) @ down,
+            tool=self.tool_points(end),
+            drop=np.maximum(parts["drop"][:, 0], self.points.drops(self.arm, starts, end)),
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,

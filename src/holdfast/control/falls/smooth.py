@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from holdfast.control.falls.drop_points import DropPoints
 from holdfast.control.falls.passive_arm import TIME_ROUNDING_S, PassiveArm
 from holdfast.control.simulation.system import (
     STATE_PHASE_END,
@@ -22,13 +23,13 @@ from holdfast.model.arm.model import Arm
 class SmoothStepper(PassiveArm):
     """Steps of the falls of an arm on which only gravity, inertia, and viscous friction act.
 
-    A state contains the configuration ``q`` and the ``rates`` (n,), the ``time``, s, the ``deepest`` coordinate of the tool
-    along gravity so far, m, the ``residual``, which is 0, and the ``code``.
+    A state contains the configuration ``q`` and the ``rates`` (n,), the ``time``, s, the largest ``drop`` so far, m, the
+    ``residual``, which is 0, and the ``code``.
     """
 
-    def __init__(self, arm: Arm) -> None:
-        super().__init__(arm)
-        self.layout = ColumnLayout(q=arm.n, rates=arm.n, time=1, deepest=1, residual=1, code=1)
+    def __init__(self, arm: Arm, points: DropPoints | None = None) -> None:
+        super().__init__(arm, points)
+        self.layout = ColumnLayout(q=arm.n, rates=arm.n, time=1, drop=1, residual=1, code=1)
 
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
         time = parts["time"]
@@ -45,6 +46,6 @@ class SmoothStepper(PassiveArm):
             "q": q + h * (rates + h / 6 * (first + 2 * third)),
             "rates": rates + h / 6 * (first + 4 * third + last),
             "time": ca.if_else(is_last, self.symbols["until"], time + h),
-            "deepest": elementwise_max(parts["deepest"], self.depth(q)),
+            "drop": elementwise_max(parts["drop"], self.drop(q)),
             "code": ca.if_else(is_last, STATE_PHASE_END, STATE_RUNNING),
         }

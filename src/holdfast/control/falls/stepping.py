@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
+from holdfast.control.falls.drop_points import DropPoints
 from holdfast.control.falls.passive_arm import TIME_ROUNDING_S, PassiveArm, any_of, largest, smallest, solve_selected
 from holdfast.control.simulation.system import (
     LARGE_NUMBER,
@@ -77,19 +78,19 @@ class DryFrictionStepper(PassiveArm):
     """Steps of the falls of an arm with dry friction, and with stops at its limits if they act.
 
     A state contains the configuration ``q``, the ``rates`` and the last ``acceleration`` (n,); the ``mode`` of each joint; the
-    ``step`` that is tried, s, 0 for a new one; the number of ``tries`` of the set; the ``time``, s; the ``deepest`` coordinate
-    of the tool along gravity so far, m; the ``residual``, which is the largest torque or force by which a step contradicts its
+    ``step`` that is tried, s, 0 for a new one; the number of ``tries`` of the set; the ``time``, s; the largest ``drop`` so
+    far, m; the ``residual``, which is the largest torque or force by which a step contradicts its
     set; and the ``code``.
     """
 
     steps_per_call = 2  # the loop around a call takes a fifth of the time of one step
 
-    def __init__(self, arm: Arm, has_stops: bool) -> None:
-        super().__init__(arm)
-        self.made_of, n = (arm, has_stops), arm.n
+    def __init__(self, arm: Arm, points: DropPoints | None, has_stops: bool) -> None:
+        super().__init__(arm, points)
+        self.made_of, n = (arm, self.points, has_stops), arm.n
         self.lower = np.where(np.isfinite(arm.lower) & has_stops, arm.lower, -LARGE_NUMBER)
         self.upper = np.where(np.isfinite(arm.upper) & has_stops, arm.upper, LARGE_NUMBER)
-        scalars = dict.fromkeys(("step", "tries", "time", "deepest", "residual", "code"), 1)
+        scalars = dict.fromkeys(("step", "tries", "time", "drop", "residual", "code"), 1)
         self.layout = ColumnLayout(q=n, rates=n, acceleration=n, mode=n, **scalars)
 
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:
@@ -232,7 +233,7 @@ class DryFrictionStepper(PassiveArm):
             "step": ca.SX(0),
             "tries": ca.SX(0),
             "time": ca.if_else(is_last, until, time),
-            "deepest": elementwise_max(parts["deepest"], self.depth(q)),
+            "drop": elementwise_max(parts["drop"], self.drop(q)),
             "residual": elementwise_max(parts["residual"], largest(excess)),
             "code": ca.if_else(is_last, STATE_PHASE_END, STATE_RUNNING),
         }

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -199,7 +199,8 @@ class FrictionOptions:
         str | None, "Friction that grows with the gravity torque, as a fraction of it: one number or one per joint.", "0"
     ] = None
     friction: Annotated[
-        Path | None, "File (YAML) with coulomb, stiction, viscous, and load of joints by name, instead of these options."
+        Path | None,
+        "File (YAML) with coulomb, stiction, viscous, load, and brake of joints, and boards, instead of these options.",
     ] = None
 
     def read_friction(self, arm: Arm) -> Friction:
@@ -216,8 +217,11 @@ class FrictionOptions:
             if given:
                 raise InputError("--friction is a file, so --coulomb, --stiction, --viscous, and --load-friction do not apply")
             return Friction.from_file(self.friction, arm)
-        numbers = {name: read_numbers(f"--{name}", text, f"one number or {arm.n} numbers") for name, text in given.items()}
-        return Friction(**{name: values[0] if values.size == 1 else values for name, values in numbers.items()})
+        numbers: dict[str, Any] = {}
+        for name, text in given.items():
+            values = read_numbers(f"--{name}", text, f"one number or {arm.n} numbers")
+            numbers[name] = values[0] if values.size == 1 else values
+        return Friction(**numbers)
 
 
 CapsulesOption = Annotated[Path | None, "Capsule file (YAML) with the collision model of the links. Default: see --radius."]

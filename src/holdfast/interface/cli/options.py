@@ -41,6 +41,10 @@ QOption = Annotated[list[str], "Joint values in rad and m, separated by commas o
 AT_HELP = "Current joint values in rad and m, separated by commas or spaces."
 AtDegreesOption = Annotated[bool, "Read --at in degrees (prismatic joints: m)."]
 DegreesOption = Annotated[bool, "Read --q in degrees (prismatic joints: m)."]
+FreeOption = Annotated[
+    str | None,
+    "Joints that lose their torque, by name or number, or board:NAME of --friction, comma-separated. Default: all.",
+]
 StartDegreesOption = Annotated[bool, "Read --start in degrees (prismatic joints: m)."]
 KeepOption = Annotated[
     list[str] | None,

@@ -24,7 +24,7 @@ from holdfast.interface.studio.state import State
 from holdfast.interface.studio.worker_process import WorkerProcess
 from holdfast.model.arm.poses import pose_numbers
 
-LONG_QUESTIONS = ("best-worst", "laws", "fall", "region", "watch")  # jobs of the worker process, see compute.py
+LONG_QUESTIONS = ("best-worst", "laws", "fall", "stow", "region", "watch")  # jobs of the worker process, see compute.py
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 

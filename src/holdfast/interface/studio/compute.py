@@ -24,6 +24,9 @@ from holdfast.studies.assessment.run import assess, load
 
 Progress = Callable[[int, int], None]
 FALL_S = 3.0  # simulated duration of a fall, s
+STOW_SAMPLES = 20_000  # configurations that are searched for one that holds
+STOW_NODES = 500  # of the roadmap of the path to it
+STOW_FALL_S = 1.0  # simulated duration of the falls along the path, s
 SHOWN_TIME_CONSTANTS = 15.0  # duration of a shown motion, in time constants 1/Ke of the law
 MAX_POINTS = 2500  # largest number of drawn points
 REGION_POSES = 1200  # number of poses in a region around the end effector
@@ -110,6 +113,29 @@ def simulate_fall(machine: CompiledArm, state: State, progress: Progress) -> lis
     return [PlayedMotion(f"power loss: {' '.join(fall.describe())}", time, "s", fall.q_at(time)).to_plain()]
 
 
+def plan_stow_motion(machine: CompiledArm, state: State, progress: Progress) -> list[dict[str, Any]]:
+    """Plan a path to a configuration in which the arm stays without power, or take the straight line if none is found.
+
+    Raises:
+        InputError: The arm states no speed limits, it is there already, or neither path is free of collisions.
+        ArmError: The arm's bodies are not known.
+    """
+    from holdfast.interface.presentation.falls.stow import present
+    from holdfast.response.stowing.path import plan_stow_path
+    from holdfast.response.stowing.pose import stow
+
+    progress(0, 2)
+    friction, clearance = Friction(coulomb=state.friction), machine.get_clearance(state.moved)
+    target = stow(machine.arm, np.array(state.q), friction=friction, clearance=clearance, samples=STOW_SAMPLES)
+    progress(1, 2)
+    path = plan_stow_path(target, nodes=STOW_NODES, duration=STOW_FALL_S)
+    curve, sentence = path.curve or path.straight, present(path).answer
+    if curve is None:
+        raise InputError(f"{sentence} The straight line is in collision.")
+    label = sentence if path.is_found else f"{sentence} The straight line is shown."
+    return [PlayedMotion(label, curve.time, "s", curve.falls.q).to_plain()]
+
+
 def find_region_cloud(machine: CompiledArm, state: State, progress: Progress) -> dict[str, Any]:
     """Return the ``Cloud`` of the state's results folder, or of poses around the end effector.
 
@@ -167,6 +193,7 @@ JOB_FUNCTIONS: Mapping[str, Callable[[CompiledArm, State, Progress], Any]] = Map
         "best-worst": find_best_and_worst,
         "laws": simulate_laws,
         "fall": simulate_fall,
+        "stow": plan_stow_motion,
         "region": find_region_cloud,
         "watch": simulate_monitor_demo,
     }

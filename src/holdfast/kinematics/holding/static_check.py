@@ -106,7 +106,7 @@ def holds(
         arm: Arm model with the masses of its links.
         q: (n,) or (N, n) configurations, rad and m.
         free: Joints without full torque: names and indices from 0, or one text with names and numbers from 1 between commas;
-            default: all joints.
+            also ``board:NAME`` for a board of the friction; default: all joints.
         friction: Friction of the joints. Default: as the arm states.
         effort: Fraction of their effort limits that the motors of the free joints still provide, 0 to 1.
         stops: False if the limits of the arm are no stops.
@@ -120,7 +120,7 @@ def holds(
             a configuration is outside the limits; the message names the joint.
     """
     rows, single = as_configurations(arm, q)
-    joints = np.array(read_joint_set(arm, free))
+    joints = np.array(read_joint_set(arm, free, None if friction is None else friction.boards))
     if not 0 <= effort <= 1:
         raise InputError(f"effort is {effort:g}; it must be a fraction from 0 to 1, for example 0.35 for 35 %")
     joint_friction = (friction or Friction()).of_joints(arm)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
@@ -17,6 +17,8 @@ from holdfast.model.arm.model import Arm
 
 JointNumbers = float | Sequence[float] | FloatArray
 """One number for all joints, or one for each."""
+
+_FILE_KEYS = ("coulomb", "stiction", "viscous", "load", "brake")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,34 +50,35 @@ class Friction:
         viscous: Friction per speed, N m s/rad or N s/m. None: as the arm states.
         load: Additional dry friction as a fraction of the gravity torque of the joint, at least 0 and below 1. Gears that the
             load drives backwards have such friction.
+        boards: Joints of each driver board, by name or index from 0. With them, ``board:NAME`` in ``free`` of
+            :func:`holdfast.power_loss` and :func:`holdfast.holds` are all joints of a board, which fail together.
     """
 
     coulomb: JointNumbers | None = None
     stiction: JointNumbers | None = None
     viscous: JointNumbers | None = None
     load: JointNumbers = 0.0
+    boards: Mapping[str, Sequence[str | int]] = field(default_factory=dict)
 
     @classmethod
     def from_file(cls, path: str | Path, arm: Arm) -> Self:
         """Read a YAML file with the friction of joints by name, for example ``elbow: {coulomb: 0.3, viscous: 0.1}``.
 
-        The keys of a joint are the attributes of this class. A joint or key that the file leaves out is as the arm states.
+        The keys of a joint are ``coulomb``, ``stiction``, ``viscous``, ``load``, and ``brake``, which only
+        :meth:`holdfast.Brakes.from_file` uses. The file may also contain ``boards: {NAME: [joints]}``. A joint or key that the
+        file leaves out is as the arm states.
 
         Raises:
-            InputError: The file cannot be read, or a joint, a key, or a number is wrong.
+            InputError: The file cannot be read, or a joint, a key, a number, or a board is wrong.
         """
-        names = [field.name for field in fields(cls)]
-        stated = vars(cls().of_joints(arm))
-        values = {name: stated[name].copy() for name in names}
-        for joint, entry in read_mapping(Path(path), "holdfast.Friction", "joints by name").items():
-            index = arm.joint_index(joint)
-            if not isinstance(entry, dict) or not set(entry) <= set(names):
-                raise InputError(f"{path}: joint '{joint}' has {entry!r}; give it a mapping with keys from {', '.join(names)}")
-            for name, number in entry.items():
-                values[name][index] = joint_numbers(arm, number, f"{path}: {name} of joint '{joint}'")[index]
+        entries, boards = read_friction_file(path, arm)
+        values = {name: numbers.copy() for name, numbers in vars(cls().of_joints(arm)).items()}
+        for index, entry in entries.items():
+            for name in values.keys() & entry.keys():
+                values[name][index] = entry[name]
             if "coulomb" in entry and "stiction" not in entry:
-                values["stiction"][index] = values["coulomb"][index]
-        return cls(**values)
+                values["stiction"][index] = entry["coulomb"]
+        return cls(**values, boards=boards)
 
     def of_joints(self, arm: Arm) -> JointFriction:
         """Return the friction of each joint of an arm.
@@ -104,6 +107,24 @@ class Friction:
                     "never moves"
                 )
         return JointFriction(coulomb=coulomb, stiction=stiction, viscous=viscous, load=load)
+
+
+def read_friction_file(path: str | Path, arm: Arm) -> tuple[dict[int, dict[str, float]], dict[str, tuple[int, ...]]]:
+    """Return the numbers of each joint of a friction file, by its index, and the joints of each board."""
+    data = read_mapping(Path(path), "holdfast.Friction", "joints by name")
+    boards = {} if "boards" in arm.joint_names else data.pop("boards", {})
+    if not isinstance(boards, dict) or not all(isinstance(joints, list) for joints in boards.values()):
+        raise InputError(f"{path}: boards is {boards!r}; give a list of joints for each name of a board")
+    entries: dict[int, dict[str, float]] = {}
+    for joint, entry in data.items():
+        index = arm.joint_index(joint)
+        if not isinstance(entry, dict) or not set(entry) <= set(_FILE_KEYS):
+            raise InputError(f"{path}: joint '{joint}' has {entry!r}; give it a mapping with keys from {', '.join(_FILE_KEYS)}")
+        entries[index] = {
+            name: float(joint_numbers(arm, number, f"{path}: {name} of joint '{joint}'")[index])
+            for name, number in entry.items()
+        }
+    return entries, {str(name): arm.joint_indices(joints) for name, joints in boards.items()}
 
 
 def joint_numbers(arm: Arm, value: Any, label: str) -> FloatArray:

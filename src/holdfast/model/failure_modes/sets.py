@@ -6,7 +6,7 @@ once its brake has closed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -117,21 +117,33 @@ def read_joint(arm: Arm, text: str) -> int:
     return arm.joint_index(text)
 
 
-def read_joint_set(arm: Arm, joints: JointSet) -> tuple[int, ...]:
+def read_joint_set(arm: Arm, joints: JointSet, boards: Mapping[str, Sequence[str | int]] | None = None) -> tuple[int, ...]:
     """Return the sorted indices from 0 of several joints.
 
     Args:
         arm: Arm model.
         joints: Names and indices from 0, or one text with names and numbers from 1 between commas; None for all joints.
+            ``board:NAME`` are all joints of a board.
+        boards: Joints of each board, by name or index from 0.
 
     Raises:
-        InputError: There is no such joint, or none is given.
+        InputError: There is no such joint or board, or none is given.
     """
     if joints is None:
         return tuple(range(arm.n))
-    if isinstance(joints, str):
-        joints = [read_joint(arm, part) for part in joints.replace(";", ",").split(",") if part.strip()]
-    indices = sorted(set(arm.joint_indices(joints)))
+    parts = [part.strip() for part in joints.replace(";", ",").split(",")] if isinstance(joints, str) else joints
+    named: list[str | int] = []
+    for part in parts:
+        if isinstance(part, str) and part.startswith("board:") and part not in arm.joint_names:
+            board = part.removeprefix("board:").strip()
+            if boards is None or board not in boards:
+                raise InputError(
+                    f"board '{board}' is unknown; the boards of the friction are {', '.join(boards or ()) or 'none'}"
+                )
+            named += boards[board]
+        elif part != "" or not isinstance(joints, str):
+            named.append(read_joint(arm, part) if isinstance(joints, str) and isinstance(part, str) else part)
+    indices = sorted(set(arm.joint_indices(named)))
     if not indices:
         raise InputError(f"no joint of '{arm.name}' is named; name at least one, or leave the joints out for all")
     return tuple(indices)

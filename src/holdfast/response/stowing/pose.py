@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.control.falls.fall import PowerLoss
+from holdfast.control.falls.physical import PhysicalFall
 from holdfast.control.falls.power_cut import power_loss
 from holdfast.core.errors import InputError
 from holdfast.core.progress import reports_progress, track
@@ -27,6 +30,9 @@ from holdfast.model.collision.clearance_argument import CellLike, chosen_clearan
 from holdfast.response.recovery.space import JointMetric
 
 STOP_PROBABILITY = 0.2  # of a sampled joint at its lower limit, and at its upper limit
+RESTING_SAMPLES = 4000  # random configurations whose falls are simulated if none holds
+RESTING_RUNS = 20  # of these, with the smallest drops, that are simulated in MuJoCo
+RESTING_STEP_S = 2e-3
 _CLIMBED_CANDIDATES = 200
 _CLIMB_ROUNDS = 25
 _CLIMB_TRIALS = 8  # per candidate and round
@@ -45,7 +51,10 @@ class StowPose(Result):
         factor: Requested ratio of friction to the torque that it must hold.
         at: (n,) configuration from which the arm comes, rad and m; None if it was not given.
         duration: Time of the straight motion from ``at`` at the speed limits, s; None without ``at``.
-        fall: Fall from ``q``, until the first contact if contacts are checked.
+        fall: Fall from ``q``, until the first contact if contacts are checked. If no configuration holds, its drop is that of
+            any point.
+        resting: Fall from ``q`` in MuJoCo, after which the arm lies still. This is one simulation, not a proof. None if a
+            configuration holds, without objects or MuJoCo, or if the arm moves on after every simulated fall.
         found: Number of the best 200 candidates, all free of collisions, that hold with the factor.
         samples: Number of configurations that were sampled.
         friction: Friction as requested; None as the arm states.
@@ -61,6 +70,7 @@ class StowPose(Result):
     at: FloatArray | None
     duration: float | None
     fall: PowerLoss
+    resting: PhysicalFall | None
     found: int
     samples: int
     seed: int
@@ -95,8 +105,11 @@ def stow(
 
     The search samples configurations with joints at their limits, where stops carry them, and improves the best of them. With
     ``at`` it returns the configuration found that the arm reaches soonest on a straight line in joint space, otherwise the one
-    with the largest surplus of friction in its weakest joint, N m. If no configuration holds, it returns the one with the
-    smallest simulated drop.
+    with the largest surplus of friction in its weakest joint, N m.
+
+    If no configuration holds, it returns the one in which any point drops least until the first contact. With objects and with
+    ``holdfast-arms[physics]``, 20 such falls are also simulated in MuJoCo with contacts. Of those after which the arm lies
+    still, the one with the smallest drop is returned.
 
     Args:
         arm: The arm, with inertial data for every link.
@@ -125,8 +138,8 @@ def stow(
         raise InputError(f"margin is {margin:g} m; it must be a finite number of 0 or more")
     if where is not None and where.kind != "joints":
         raise InputError(f"region '{where.name}' contains poses; give a region of joint values (Region.joints)")
-    resting = (friction or Friction()).of_joints(arm)
-    if not resting.stiction.any() and not resting.load.any() and not np.isfinite([arm.lower, arm.upper]).any():
+    joint_friction = (friction or Friction()).of_joints(arm)
+    if not joint_friction.stiction.any() and not joint_friction.load.any() and not np.isfinite([arm.lower, arm.upper]).any():
         raise InputError(f"nothing holds '{arm.name}' but its motors, because it has neither dry friction nor joint limits")
     start, limits = _read_start(arm, at, speeds)
     metric = None if limits is None else JointMetric("time", 1 / limits)
@@ -160,6 +173,7 @@ def stow(
         raise InputError(f"none of the best of {samples:,} configurations of '{arm.name}' is free of collisions")
     candidates, excess = _climb(q[clear], excess[clear], measure_excess, is_clear, rng, lower, upper)
     held = candidates[excess >= 0]
+    resting: PhysicalFall | None = None
     count = int((excess >= 0).sum())
     if count and start is not None and metric is not None:
 
@@ -171,8 +185,8 @@ def stow(
     elif count:
         chosen = candidates[np.argmax(excess)]
     else:
-        falls = power_loss(arm, candidates, friction=friction, clearance=model, step=4e-3)
-        chosen = candidates[np.argmin(np.where(falls.status == Status.OK, falls.drop, np.inf))]
+        further = q[:RESTING_SAMPLES]
+        chosen, resting = _find_resting(arm, np.vstack([candidates, further[is_clear(further)]]), friction, model)
     return StowPose(
         arm=arm,
         q=chosen,
@@ -180,7 +194,8 @@ def stow(
         factor=float(factor),
         at=start,
         duration=None if start is None or metric is None else float(metric.measure_length(chosen - start)),
-        fall=power_loss(arm, chosen, friction=friction, clearance=model),
+        fall=power_loss(arm, chosen, friction=friction, clearance=model, of="tool" if count else "any point"),
+        resting=resting,
         found=count,
         samples=samples,
         seed=seed,
@@ -189,6 +204,22 @@ def stow(
         margin=float(margin),
         speeds=limits,
     )
+
+
+def _find_resting(
+    arm: Arm, q: FloatArray, friction: Friction | None, clearance: Clearance | None
+) -> tuple[FloatArray, PhysicalFall | None]:
+    """Return the configuration of q (N, n) in which the arm drops least, and its fall in MuJoCo if the arm lies still then."""
+    falls = power_loss(arm, q, friction=friction, clearance=clearance, step=4e-3, of="any point")
+    order = np.argsort(np.where(falls.status == Status.OK, falls.drop, np.inf))
+    resting: list[PhysicalFall] = []
+    if clearance is not None and clearance.cell is not None and find_spec("mujoco") is not None:
+        for row in track("falls in MuJoCo", order[:RESTING_RUNS].tolist()):
+            with suppress(InputError):  # the meshes overlap, or the simulation is unstable
+                run = falls.physical(row, step=RESTING_STEP_S)
+                resting += [run] if run.outcome == "rest" else []
+    best = min(resting, key=lambda run: run.drop, default=None)
+    return (q[order[0]], None) if best is None else (best.q[0], best)
 
 
 def sample_with_stops(rng: np.random.Generator, count: int, lower: FloatArray, upper: FloatArray) -> FloatArray:

@@ -9,7 +9,15 @@ import typer
 
 import holdfast as hf
 from holdfast.interface.cli.groups import ArmSourceOptions, FrictionOptions, MountingOptions
-from holdfast.interface.cli.options import NOT_MET_EXIT_CODE, ArmArgument, DegreesOption, JsonOption, OutOption, QOption
+from holdfast.interface.cli.options import (
+    NOT_MET_EXIT_CODE,
+    ArmArgument,
+    DegreesOption,
+    FreeOption,
+    JsonOption,
+    OutOption,
+    QOption,
+)
 from holdfast.interface.cli.values import read_configuration, read_fraction
 from holdfast.interface.presentation.results import print_result, write_outputs
 
@@ -17,7 +25,7 @@ from holdfast.interface.presentation.results import print_result, write_outputs
 def command(
     arm: ArmArgument,
     q: QOption,
-    free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
+    free: FreeOption = None,
     effort: Annotated[str, "Fraction of the effort limits that the motors still provide, for example 35% or 0.35."] = "0",
     stops: Annotated[
         bool, typer.Option("--stops/--no-stops", help="Let joint limits carry the joints that gravity pushes against them.")

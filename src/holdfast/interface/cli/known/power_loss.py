@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
@@ -13,6 +13,7 @@ from holdfast.interface.cli.groups import ArmSourceOptions, ContactOptions, Fric
 from holdfast.interface.cli.options import (
     ArmArgument,
     DegreesOption,
+    FreeOption,
     JsonOption,
     MotionCsvOption,
     OutOption,
@@ -41,12 +42,14 @@ def command(
     ] = None,
     samples: Annotated[int, "Number of random configurations."] = 20_000,
     seed: SeedOption = 1,
+    of: Annotated[str, "Point whose drop is computed: 'tool', or 'any point' of the links that falls most."] = "tool",
     rates: Annotated[str | None, "Joint rates at the power loss in rad/s and m/s. Default: the arm is at rest."] = None,
-    free: Annotated[str | None, "Joints that lose their torque, by name or number, comma-separated. Default: all."] = None,
+    free: FreeOption = None,
     friction: FrictionOptions = FrictionOptions(),
     brake_after: Annotated[list[float] | None, "Delay of the brakes in ms. Repeatable, to compare delays."] = None,
     brake_torque: Annotated[
-        list[str] | None, "Torque of the brakes in N m (N): one number or one per joint. Repeatable, to compare torques."
+        list[str] | None,
+        "Torque of the brakes in N m (N): one number or one per joint. Repeatable, to compare torques. Default: --friction.",
     ] = None,
     restitution: Annotated[float, "Ratio of the joint speeds after and before the impact on a stop, 0 to 1."] = 0.0,
     stops: Annotated[bool, typer.Option("--stops/--no-stops", help="Let the joint limits stop the joints.")] = True,
@@ -54,6 +57,7 @@ def command(
     accuracy: Annotated[float | None, "Largest estimated error of the tool in m. Default: no limit, steps of 2 ms."] = None,
     band: Annotated[bool, "Also simulate without friction and with twice the friction."] = False,
     physics: Annotated[bool, "Also simulate in MuJoCo, beyond the first contact (needs the extra 'physics')."] = False,
+    sweep: Annotated[bool, "Also compute the space that the links sweep during the fall from --q."] = False,
     touched: ContactOptions = ContactOptions(),
     placement: MountingOptions = MountingOptions(),
     degrees: DegreesOption = False,
@@ -74,49 +78,52 @@ def command(
         raise InputError("give one of --q, --along, and --anywhere")
     model = placement.mount_arm(chain.resolve_arm(arm))
     options: dict[str, Any] = {"free": free, "restitution": restitution, "stops": stops, "duration": duration}
-    options |= {"accuracy": accuracy, "friction": friction.read_friction(model)}
+    options |= {"accuracy": accuracy, "of": of, "friction": friction.read_friction(model)}
     options["clearance"] = touched.build_contact_clearance(model)
-    delays, torques = _read_brakes(brake_after, brake_torque)
-    if len(delays) > 1 or len(torques) > 1:
-        if q is None:
-            raise InputError("several brakes are compared in one configuration; give --q")
-        start_rates = None if rates is None else read_configuration(model, rates, degrees, "--rates")
-        compared = hf.compare_brakes(
-            model, read_configuration(model, q, degrees), start_rates, torque=torques, after=delays, **options
-        )
-        print_result(compared, json_, write_outputs(compared, plot, out))
-        return
-    if delays:
+    delays, torques = _read_brakes(model, brake_after, brake_torque, friction.friction)
+    result: Any
+    others: dict[str, Any] = {}
+    files: list[Path] = []
+    has_several_brakes = len(delays) > 1 or len(torques) > 1
+    if (csv is not None or band or physics or sweep) and (q is None or has_several_brakes):
+        raise InputError("--csv, --band, --physics, and --sweep describe one fall; give --q, and at most one brake")
+    if delays and not has_several_brakes:
         options["brakes"] = hf.Brakes(after=delays[0], torque=torques[0])
-    if along is not None:
+    if q is not None:
+        start = read_configuration(model, q, degrees)
+        options["rates"] = None if rates is None else read_configuration(model, rates, degrees, "--rates")
+    if q is not None and has_several_brakes:
+        result = hf.compare_brakes(model, start, torque=torques, after=delays, **options)
+    elif has_several_brakes:
+        raise InputError("several brakes are compared in one configuration; give --q")
+    elif along is not None:
         time, motion = _read_motion(model, along, episode)
-        curve = hf.power_loss_along(model, motion, time, **options)
-        print_result(curve, json_, write_outputs(curve, plot, out))
-        return
-    if anywhere:
+        result = hf.power_loss_along(model, motion, time, **options)
+    elif anywhere:
         if below is None:
             raise InputError("--anywhere estimates the probability of a limit; give --below")
-        where = None if region is None else hf.Region.load(region)
-        choice: Any = measure
-        chance = hf.power_loss_probability(model, below, measure=choice, where=where, samples=samples, seed=seed, **options)
-        print_result(chance, json_, write_outputs(chance, plot, out))
-        return
-    assert q is not None
-    options["rates"] = None if rates is None else read_configuration(model, rates, degrees, "--rates")
-    start = read_configuration(model, q, degrees)
-    fall = hf.power_loss(model, start, **options)
-    files = [] if csv is None else [fall.to_csv(csv)]
-    factors = (0, 2) if band else ()
-    frictions = [hf.Friction(**{name: factor * values for name, values in vars(fall.friction).items()}) for factor in factors]
-    others: dict[str, Any] = {
-        "compared": {"in MuJoCo": fall.physical(clearance=options["clearance"])} if physics else {},
-        "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
-    }
-    print_result(fall, json_, [*files, *write_outputs(fall, plot, out, **others)], **others)
+        where, choice = None if region is None else hf.Region.load(region), cast(Any, measure)
+        result = hf.power_loss_probability(model, below, measure=choice, where=where, samples=samples, seed=seed, **options)
+    else:
+        result = hf.power_loss(model, start, **options)
+        files += [] if csv is None else [result.to_csv(csv)]
+        values = vars(result.friction)
+        frictions = [hf.Friction(**{name: factor * values[name] for name in values}) for factor in (0, 2) if band]
+        options["free"] = result.free
+        others = {
+            "compared": {"in MuJoCo": result.physical(clearance=options["clearance"])} if physics else {},
+            "band": [hf.power_loss(model, start, **options | {"friction": other}) for other in frictions],
+            "sweep": result.sweep() if sweep else None,
+        }
+    print_result(result, json_, [*files, *write_outputs(result, plot, out, **others)], **others)
 
 
-def _read_brakes(after: list[float] | None, torque: list[str] | None) -> tuple[list[float], list[Any]]:
-    """Return the delays, s, and the torques of the brakes to compare; empty without brakes."""
+def _read_brakes(
+    arm: hf.Arm, after: list[float] | None, torque: list[str] | None, file: Path | None
+) -> tuple[list[float], list[Any]]:
+    """Return the delays, s, and the torques of the brakes to compare, from a friction file by default; empty without brakes."""
+    if after is not None and torque is None and file is not None:
+        return [delay / 1000 for delay in after], [hf.Brakes.from_file(file, arm, 0.0).torque]
     if (after is None) != (torque is None):
         raise InputError("--brake-after and --brake-torque describe brakes together; give both")
     numbers = [read_numbers("--brake-torque", text, "one number or one per joint") for text in torque or []]

@@ -10,13 +10,13 @@ import numpy as np
 from holdfast.control.falls.brake_curve import BrakeComparison
 from holdfast.core.formatting import format_number
 from holdfast.interface import report
-from holdfast.interface.presentation.falls.motion import format_distance
+from holdfast.interface.presentation.falls.motion import format_distance, name_drop
 from holdfast.interface.presentation.presentation import Column, Fact, FigureSpec, Header, Presentation, TableSpec
 
 
 def to_dict(comparison: BrakeComparison) -> dict[str, Any]:
     """Return the drops of all brakes."""
-    names = ("q", "after", "torque", "drop", "drop_at_brake", "drop_without", "need")
+    names = ("q", "of", "after", "torque", "drop", "drop_at_brake", "drop_without", "need")
     return {**comparison.arm.entry(), **{name: getattr(comparison, name) for name in names}}
 
 
@@ -52,7 +52,7 @@ def present(comparison: BrakeComparison) -> Presentation:
                 "N m (N)",
             )
         ],
-        tables=[TableSpec("Largest drop of the tool", columns, rows)],
+        tables=[TableSpec(f"Largest {name_drop(comparison.of)}", columns, rows)],
         figures={"brakes": FigureSpec(partial(_draw_figure, comparison), "Drop over the delay")},
         arm=comparison.arm,
     )
@@ -69,6 +69,6 @@ def _name_brakes(comparison: BrakeComparison) -> list[str]:
 def _draw_figure(comparison: BrakeComparison) -> report.Figure:
     lines = dict(zip(_name_brakes(comparison), 1000 * comparison.drop, strict=True))
     lines["stops at once"] = 1000 * comparison.drop_at_brake
-    panel = report.motions.TimePanel(1000 * comparison.after, lines, "largest drop of the tool, mm", "")
+    panel = report.motions.TimePanel(1000 * comparison.after, lines, f"largest {name_drop(comparison.of)}, mm", "")
     caption = f"{comparison.arm.name}: {comparison.drop.size} simulated power losses"
     return report.motions.motion_figure([panel], caption, "delay of the brakes, ms", panel_width=report.WIDTH_IN)

@@ -11,7 +11,7 @@ from holdfast.control.falls.along import DropCurve
 from holdfast.core.formatting import format_count, format_number
 from holdfast.interface import report
 from holdfast.interface.presentation.arm.view import build_view_section
-from holdfast.interface.presentation.falls.motion import describe_free_joints, format_distance, list_friction
+from holdfast.interface.presentation.falls.motion import describe_free_joints, format_distance, list_friction, name_drop
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 from holdfast.interface.report.page import Section
 
@@ -28,7 +28,7 @@ def to_dict(curve: DropCurve) -> dict[str, Any]:
         "spacing_s": curve.spacing,
         "rates_from": curve.rates_from,
         **{name: getattr(curve, name) for name in ("time", "drop", "impact_speed", "impact_energy")},
-        **{name: getattr(curve.falls, name) for name in ("q", "rates", "error")},
+        **{name: getattr(curve.falls, name) for name in ("of", "q", "rates", "error")},
     }
 
 
@@ -37,7 +37,7 @@ def present(curve: DropCurve) -> Presentation:
     falls, arm, worst = curve.falls, curve.falls.arm, curve.worst
     answer = (
         f"A power loss at {format_number(curve.time[worst], 4)} s is the worst of {format_count(len(curve.time), 'instant')}: "
-        f"the tool falls {format_distance(curve.drop[worst])}"
+        f"the {name_drop(falls.of)} is {format_distance(curve.drop[worst])}"
     )
     contact = None if falls.contacts is None else falls.contacts.select_contact(worst)
     if contact is not None:
@@ -60,11 +60,7 @@ def present(curve: DropCurve) -> Presentation:
             Fact("largest time between instants", curve.spacing, "s"),
         ],
         tables=[table],
-        figures={
-            "drop": FigureSpec(
-                partial(draw_curves, {"": curve}), "Over time", "Drop of the tool for a power loss at each instant."
-            )
-        },
+        figures={"drop": FigureSpec(partial(draw_curves, {"": curve}), "Over time", "Drop for a power loss at each instant.")},
         sections=partial(build_film, curve),
         method=[
             ("Instants", f"{len(curve.time)}; between them nothing was simulated"),
@@ -86,7 +82,7 @@ def draw_curves(curves: dict[str, DropCurve]) -> report.Figure:
     }
     moment = (float(first.time[first.worst]), 1000 * float(first.drop[first.worst]), "worst")
     values = lines if len(curves) > 1 else lines[next(iter(lines))]
-    panel = report.motions.TimePanel(time, values, "drop of the tool, mm", "", moments=(moment,))
+    panel = report.motions.TimePanel(time, values, f"{name_drop(first.falls.of)}, mm", "", moments=(moment,))
     caption = f"{first.falls.arm.name}: {len(first.time)} simulated power losses"
     return report.motions.motion_figure([panel], caption, "instant of the power loss, s", panel_width=report.WIDTH_IN)
 
@@ -94,5 +90,5 @@ def draw_curves(curves: dict[str, DropCurve]) -> report.Figure:
 def build_film(curve: DropCurve, title: str = "The motion") -> list[Section]:
     """Build the view of the motion with the drop of the tool for a power loss at each instant."""
     readings = [f"{t:.2f} s, drop {1000 * drop:.0f} mm" for t, drop in zip(curve.time, curve.drop, strict=True)]
-    caption = f"{title}, with the drop of the tool for a power loss at each instant."
+    caption = f"{title}, with the {name_drop(curve.falls.of)} for a power loss at each instant."
     return [build_view_section(title, curve.falls.arm, curve.falls.q, caption, time=curve.time, readings=readings)]

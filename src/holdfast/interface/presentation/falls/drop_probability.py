@@ -11,11 +11,10 @@ from scipy.stats import rankdata
 from holdfast.control.falls.probability import DropProbability
 from holdfast.core.formatting import format_count, format_interval, format_number
 from holdfast.interface import report
-from holdfast.interface.presentation.falls.motion import describe_free_joints, list_friction
+from holdfast.interface.presentation.falls.motion import describe_free_joints, list_friction, name_drop
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Header, Presentation, TableSpec
 
 _MEASURE_NAMES = {
-    "drop": "drop of the tool",
     "released": "released energy",
     "impact_speed": "impact speed",
     "impact_energy": "impact energy",
@@ -30,6 +29,7 @@ def to_dict(result: DropProbability) -> dict[str, Any]:
     return {
         **result.fall.arm.entry(),
         "measure": result.measure,
+        "of": result.fall.of,
         "below": result.below,
         "unit": result.unit,
         "fraction": interval.value,
@@ -44,7 +44,7 @@ def to_dict(result: DropProbability) -> dict[str, Any]:
 
 def present(result: DropProbability) -> Presentation:
     """Present the fraction of harmless configurations, quantiles, a map over the two most important joints, and the worst."""
-    arm, interval, name = result.fall.arm, result.interval(), _MEASURE_NAMES[result.measure]
+    arm, interval, name = result.fall.arm, result.interval(), _name_measure(result)
     limit = f"{format_number(result.below)} {result.unit}"
     known = result.value[np.isfinite(result.value)]
     quantiles = (
@@ -89,6 +89,10 @@ def present(result: DropProbability) -> Presentation:
     )
 
 
+def _name_measure(result: DropProbability) -> str:
+    return _MEASURE_NAMES.get(result.measure, name_drop(result.fall.of))
+
+
 def _draw_map(result: DropProbability) -> report.Figure:
     """Draw the mean over the two joints with the largest rank correlation with the measure."""
     arm, known = result.fall.arm, np.isfinite(result.value)
@@ -105,6 +109,6 @@ def _draw_map(result: DropProbability) -> report.Figure:
         mesh = axes.pcolormesh(
             x * arm.joints[first].display_unit[0], y * arm.joints[second].display_unit[0], means.T, cmap="cividis_r"
         )
-        figure.colorbar(mesh, label=f"mean {_MEASURE_NAMES[result.measure]}, {result.unit}")
+        figure.colorbar(mesh, label=f"mean {_name_measure(result)}, {result.unit}")
         axes.set(xlabel=labels[0], ylabel=labels[1], title=f"{known.sum():,} falls")
     return figure

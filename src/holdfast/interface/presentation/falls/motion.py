@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from holdfast.control.falls.drop_points import DropOf
 from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
 from holdfast.core.formatting import format_number
@@ -29,9 +30,17 @@ def format_distance(distance: float) -> str:
     return f"{format_number(factor * distance, 3)} {unit}"
 
 
-def describe_drop(drop: float) -> str:
-    """Describe the largest drop of the tool, m."""
-    return f"The tool falls {format_distance(drop)}" if drop >= 5e-5 else "The tool does not fall"
+def name_drop(of: DropOf) -> str:
+    """Name the drop of the tool, or of any point."""
+    return "drop of the tool" if of == "tool" else "drop of any point"
+
+
+def describe_drop(fall: PowerLoss | PhysicalFall) -> str:
+    """Describe the largest drop of a single fall."""
+    drop, is_tool = float(fall.drop), fall.of == "tool"
+    if drop < 5e-5:
+        return "The tool does not fall" if is_tool else "No point of the arm falls"
+    return f"{'The tool' if is_tool else 'A point of the arm'} falls {format_distance(drop)}"
 
 
 def describe_free_joints(fall: PowerLoss | PhysicalFall) -> str:
@@ -51,17 +60,20 @@ def list_friction(fall: PowerLoss | PhysicalFall) -> list[tuple[str, str]]:
     return [(label, numbers[0] if len(set(numbers)) == 1 else ", ".join(numbers)) for label, numbers in texts.items()]
 
 
-def build_film(fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray) -> Section:
-    """Build the view of motions (F, n) over times (F,), the first opaque, next to a ghost at the power loss."""
+def build_film(
+    fall: PowerLoss | PhysicalFall, motions: Mapping[str, FloatArray], time: FloatArray, swept: FloatArray | None = None
+) -> Section:
+    """Build the view of motions (F, n) over times (F,), the first opaque, a ghost at the power loss, and swept points."""
     shown = {**motions, "at the power loss": np.tile(np.atleast_2d(fall.q)[0], (len(time), 1))}
     return build_view_section(
         "The fall",
         fall.arm,
         np.array(list(shown.values())),
-        "The simulated fall, and the arm at the power loss.",
+        f"The simulated fall, and the arm at the power loss.{'' if swept is None else ' Points bound the swept space.'}",
         labels=list(shown),
         free=fall.free if len(fall.free) < fall.arm.n else (),
         time=time,
         readings=[f"{instant:.2f} s" for instant in time],
         cell=fall.cell,
+        points=swept,
     )

@@ -35,13 +35,16 @@ def present(fall: PhysicalFall) -> Presentation:
     end = "is at rest" if fall.outcome == "rest" else "still moves"
     return Presentation(
         f"Fall of {fall.arm.name} in MuJoCo",
-        f"{motion.describe_drop(fall.drop)}, and the arm {end} after {format_number(float(fall.time[-1]), 3)} s.",
+        f"{motion.describe_drop(fall)}, and the arm {end} after {format_number(float(fall.time[-1]), 3)} s.",
         about=f"Arm {fall.arm.title}. {motion.describe_free_joints(fall)}.",
         lines=["The arm touches nothing."] if fall.contacts == () else [],
         notices=[Notice(f"{capitalise_first(fall.contacts[0].sentence())}.")] if fall.contacts else [],
-        facts=[Fact("largest drop of the tool", 1000 * fall.drop, "mm"), Fact("simulated time", float(fall.time[-1]), "s")],
+        facts=[
+            Fact(f"largest {motion.name_drop(fall.of)}", 1000 * fall.drop, "mm"),
+            Fact("simulated time", float(fall.time[-1]), "s"),
+        ],
         tables=[tabulate_contacts(fall.contacts)] if fall.contacts else [],
-        figures={"fall": FigureSpec(partial(_draw_figure, fall), "Over time", "Drop of the tool over time.")},
+        figures={"fall": FigureSpec(partial(_draw_figure, fall), "Over time", "Drop over time.")},
         sections=partial(_animate_fall, fall),
         method=[("Simulation", f"MuJoCo, {len(fall.time) - 1:,} time steps"), *motion.list_friction(fall)],
         arm=fall.arm,
@@ -57,5 +60,5 @@ def _draw_figure(fall: PhysicalFall) -> report.Figure:
     drops = 1000 * fall.drops
     first_times = [contact.time for contact in fall.contacts or ()][:1]
     moments = tuple((time, float(np.interp(time, fall.time, drops)), "first contact") for time in first_times)
-    panel = report.motions.TimePanel(fall.time, drops, "drop of the tool, mm", "Tool", moments=moments)
+    panel = report.motions.TimePanel(fall.time, drops, f"{motion.name_drop(fall.of)}, mm", "Drop", moments=moments)
     return report.motions.motion_figure([panel], f"{fall.arm.name} without power, MuJoCo", motion.TIME_LABEL, panel_width=7)

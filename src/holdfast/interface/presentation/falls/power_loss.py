@@ -10,6 +10,7 @@ import numpy as np
 
 from holdfast.control.falls.fall import PowerLoss
 from holdfast.control.falls.physical import PhysicalFall
+from holdfast.control.falls.sweep import Sweep
 from holdfast.core.formatting import capitalise_first, format_count, format_number
 from holdfast.core.status import Status
 from holdfast.interface import report
@@ -36,14 +37,16 @@ CHECKED_TIMES_S = (0.05, 0.1, 0.2, 0.5)
 START_S = 1e-3  # duration over which the initial accelerations are measured
 DROP_QUANTILES = (0.5, 0.9, 0.99)
 WORST_ROWS = 10
+MOST_SHOWN_POINTS = 1000  # of the surface of the sweep
 MOST_MARKED_STOPS = 4
 INACCURATE_FRACTION = 0.2  # of the drop: with a larger error, only the beginning of the fall is accurate
-_DROP_COLUMN = Header("drop of the tool", "mm", aligned=False)
-_FIGURE_CAPTION = "Drop of the tool, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
+_FIGURE_CAPTION = "Drop, energy, and joint rates. Dots mark joints that reach a stop. Thick lines are from MuJoCo."
 
 
-def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> dict[str, Any]:
-    """Return the numbers of every fall, the drops of a single fall over time, and the falls under other conditions."""
+def to_dict(
+    fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = (), sweep: Sweep | None = None
+) -> dict[str, Any]:
+    """Return the numbers of every fall, the drops of a single fall over time, other conditions, and the swept space."""
     names, others = fall.arm.joint_names, _name_others(compared, band)
     times = _list_checked_times(fall)
     return {
@@ -51,6 +54,7 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         "free": [names[joint] for joint in fall.free],
         **{key: dict(zip(names, values, strict=True)) for key, values in vars(fall.friction).items()},
         "outcome": fall.outcome,
+        "of": fall.of,
         "drop_m": fall.drop,
         "error_m": fall.error,
         "released_J": fall.released,
@@ -61,14 +65,23 @@ def to_dict(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
         if fall.q.ndim == 1
         else None,
         "compared": {label: other.to_dict() for label, other in others.items()},
+        "sweep": None
+        if sweep is None
+        else {
+            "voxel_m": sweep.voxel,
+            "volume_m3": [sweep.lower_volume, sweep.upper_volume],
+            "boxes_m": dict(zip(sweep.links, sweep.boxes, strict=True)),
+        },
     }
 
 
-def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = ()) -> Presentation:
+def present(
+    fall: PowerLoss, compared: Others | None = None, band: Sequence[PowerLoss] = (), sweep: Sweep | None = None
+) -> Presentation:
     """Present the fall, or the distribution of several falls.
 
     ``compared`` are falls from the same state under other conditions, by the name of the condition, and ``band`` without
-    friction and with twice the friction.
+    friction and with twice the friction. ``sweep`` is the space that this fall sweeps.
     """
     single, others = fall.q.ndim == 1, _name_others(compared, band)
     is_falling = single and fall.outcome not in ("holds", "unknown")
@@ -81,10 +94,10 @@ def present(fall: PowerLoss, compared: Others | None = None, band: Sequence[Powe
             *_list_notices(fall),
             *[Notice(f"{capitalise_first(contacts[0].sentence())}.", title="MuJoCo") for contacts in touching],
         ],
-        facts=_list_facts(fall),
+        facts=_list_facts(fall, sweep),
         tables=partial(_list_tables, fall, others) if single else [_tabulate_worst(fall)],
         figures={"fall": FigureSpec(partial(_draw_figure, fall, others), "Over time", _FIGURE_CAPTION)} if is_falling else {},
-        sections=partial(_animate_fall, fall, others) if is_falling else tuple,
+        sections=partial(_animate_fall, fall, others, sweep) if is_falling else tuple,
         method=[
             ("Simulation", f"{format_number(fall.duration, 3)} s, in steps of {1000 * np.max(fall.step):g} ms or less"),
             *motion.list_friction(fall),
@@ -108,7 +121,7 @@ def _compose_answer(fall: PowerLoss, band: Sequence[PowerLoss]) -> str:
         return f"The fall was not simulated to its end: {Status(int(fall.status)).sentence}"
     if fall.outcome == "holds":
         return "The arm stays where it is, because friction and stops hold every joint without torque"
-    answer = motion.describe_drop(float(fall.drop))
+    answer = motion.describe_drop(fall)
     if contact:
         answer += f" until {contact}"
     elif np.isfinite(fall.rest_time):
@@ -152,18 +165,24 @@ def _list_notices(fall: PowerLoss) -> list[Notice]:
     return notices
 
 
-def _list_facts(fall: PowerLoss) -> list[Fact]:
+def _list_facts(fall: PowerLoss, sweep: Sweep | None) -> list[Fact]:
     drops = 1000 * np.atleast_1d(fall.drop)[np.isfinite(np.atleast_1d(fall.drop))]
     if fall.q.ndim > 1:
         quantiles = zip(DROP_QUANTILES, np.quantile(drops, DROP_QUANTILES) if drops.size else (), strict=False)
         return [Fact(f"largest drop in {100 * fraction:g} % of the falls", float(drop), "mm") for fraction, drop in quantiles]
+    name = f"largest {motion.name_drop(fall.of)}"
     facts = [
-        Fact("largest drop of the tool", 1000 * float(fall.drop), "mm", phrase="largest drop of the tool"),
+        Fact(name, 1000 * float(fall.drop), "mm", phrase=name),
         Fact("energy released", float(fall.released), "J", phrase="released until the end"),
         Fact("time to rest", float(fall.rest_time), "s", phrase="until the arm is at rest"),
         Fact("estimated error of the tool at the end", 1000 * float(fall.error), "mm", digits=2),
     ]
-    return [fact for fact in facts if np.isfinite(fact.value)]
+    facts = [fact for fact in facts if np.isfinite(fact.value)]
+    if sweep is not None:
+        volumes = " to ".join(format_number(1000 * volume, 3) for volume in (sweep.lower_volume, sweep.upper_volume))
+        size = " x ".join(format_number(float(edge), 3) for edge in np.diff(sweep.box, axis=0)[0])
+        facts += [Fact("volume that the links sweep", f"{volumes} L"), Fact("box around the sweep", f"{size} m")]
+    return facts
 
 
 def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
@@ -172,15 +191,20 @@ def _list_tables(fall: PowerLoss, others: Others) -> Sequence[TableSpec]:
     times = np.array(_list_checked_times(fall))
     speeds = np.linalg.norm(np.einsum("tij,tj->ti", fall.arm.jacobian(fall.q_at(times))[:, :3], fall.rates_at(times)), axis=1)
     drops = zip([f"{1000 * time:g} ms" for time in times], 1000 * fall.drop_at(times), speeds, strict=True)
-    columns: list[Column] = ["after", _DROP_COLUMN, Header("speed of the tool", "m/s")]
+    drop = _make_drop_header(fall)
+    columns: list[Column] = ["after", drop, Header("speed of the tool", "m/s")]
     title = "Drop over time" if fall.brakes is None else "Drop over time, with the brakes"
     tables = [TableSpec(title, columns, list(drops)), _tabulate_joints(fall)]
     if others:
         rows = [(label, 1000 * float(other.drop), str(other.outcome)) for label, other in others.items()]
-        columns = ["condition", _DROP_COLUMN, "outcome"]
+        columns = ["condition", drop, "outcome"]
         tables.append(TableSpec("The same state under other conditions", columns, rows))
     physical = [other for other in others.values() if isinstance(other, PhysicalFall)]
     return tables + [tabulate_contacts(other.contacts) for other in physical if other.contacts]
+
+
+def _make_drop_header(fall: PowerLoss) -> Header:
+    return Header(motion.name_drop(fall.of), "mm", aligned=False)
 
 
 def _tabulate_joints(fall: PowerLoss) -> TableSpec:
@@ -199,7 +223,7 @@ def _tabulate_joints(fall: PowerLoss) -> TableSpec:
 def _tabulate_worst(fall: PowerLoss) -> TableSpec:
     columns: list[Column] = [
         "row",
-        _DROP_COLUMN,
+        _make_drop_header(fall),
         Header("energy released", "J", aligned=False),
         Header("estimated error", "mm", digits=3, aligned=False),
         "outcome",
@@ -214,17 +238,18 @@ def _find_end(fall: PowerLoss) -> float:
     return fall.duration if not fall.rest_time > 0 else min(1.2 * float(fall.rest_time), fall.duration)
 
 
-def _animate_fall(fall: PowerLoss, others: Others) -> list[Section]:
+def _animate_fall(fall: PowerLoss, others: Others, sweep: Sweep | None) -> list[Section]:
     time = np.linspace(0.0, _find_end(fall), motion.FILM_FRAMES)
     motions = {"fall": fall.q_at(time)}
     for label, other in others.items():
         if isinstance(other, PhysicalFall):
             motions[label] = np.stack([np.interp(time, other.time, values) for values in other.q.T], axis=1)
-    return [motion.build_film(fall, motions, time)]
+    points = None if sweep is None else sweep.surface[:: 1 + len(sweep.surface) // MOST_SHOWN_POINTS]
+    return [motion.build_film(fall, motions, time, points)]
 
 
 def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
-    """Draw the drop of the tool, the energies, and the joint rates over time."""
+    """Draw the drop, the energies, and the joint rates over time."""
     arm, time = fall.arm, np.linspace(0.0, _find_end(fall), 401)
     q, rates = fall.q_at(time), fall.rates_at(time)
     released, kinetic = fall.energies_at(time)
@@ -241,7 +266,7 @@ def _draw_figure(fall: PowerLoss, others: Others) -> report.Figure:
     label = f"joint rate, {' or '.join(sorted({f'{units[k]}/s' for k in fall.free}))}"
     panels = [
         report.motions.TimePanel(
-            time, 1000 * fall.drop_at(time), "drop of the tool, mm", "Tool", compared=compared[0] if compared else None
+            time, 1000 * fall.drop_at(time), f"{motion.name_drop(fall.of)}, mm", "Drop", compared=next(iter(compared), None)
         ),
         report.motions.TimePanel(time, energies, "energy, J", "Energy"),
         report.motions.TimePanel(time, speeds, label, "Joints", moments=stops),

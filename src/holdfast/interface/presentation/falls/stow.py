@@ -13,7 +13,7 @@ from holdfast.interface.presentation.holding import hold_check
 from holdfast.interface.presentation.presentation import Fact, FigureSpec, Notice, Presentation
 from holdfast.interface.report.page import Section
 from holdfast.response.stowing.path import StowPath
-from holdfast.response.stowing.pose import StowPose
+from holdfast.response.stowing.pose import RESTING_RUNS, StowPose
 
 
 def to_dict(result: StowPose | StowPath) -> dict[str, Any]:
@@ -27,6 +27,7 @@ def to_dict(result: StowPose | StowPath) -> dict[str, Any]:
         "factor": stow.check.factor,
         "margin": stow.check.margin,
         "drop_m": stow.fall.drop,
+        "resting": None if stow.resting is None else stow.resting.to_dict(),
         "duration_s": stow.duration,
         "found": stow.found,
         "samples": stow.samples,
@@ -65,7 +66,7 @@ def present(result: StowPose | StowPath) -> Presentation:
         about=f"Arm {arm.title}. Configuration {configuration}",
         notices=[
             *check.notices,
-            *([] if stow.holds else [Notice("The arm falls from this configuration without power.", "bad")]),
+            *([] if stow.holds else [Notice("Friction and stops do not hold the arm in this configuration.", "bad")]),
         ],
         facts=[
             *check.facts,
@@ -86,9 +87,13 @@ def present(result: StowPose | StowPath) -> Presentation:
 
 def _describe_stow(stow: StowPose) -> str:
     if not stow.holds:
+        answer = f"No configuration was found that holds with {format_number(stow.factor)} times the needed torque"
+        if stow.resting is None:
+            return f"{answer}; the one with the smallest drop is shown. {describe_drop(stow.fall)}."
+        touched = ", ".join(dict.fromkeys(contact.object for contact in stow.resting.contacts or ())) or "nothing"
         return (
-            f"No configuration was found that holds with {format_number(stow.factor)} times the needed torque; the one with "
-            f"the smallest drop is shown. {describe_drop(float(stow.fall.drop))}."
+            f"{answer}. The one shown was found by simulating {RESTING_RUNS} falls in MuJoCo, which is no proof. "
+            f"{describe_drop(stow.resting)}, and the arm then lies still, in contact with {touched}."
         )
     return hold_check.present(stow.check).answer
 

@@ -35,7 +35,7 @@ class FrictionToolDrop(NumericObjective):
     """
 
     def __init__(self, arm: Arm, free: JointSet, friction: Friction) -> None:
-        self.arm, self.free = arm, read_joint_set(arm, free)
+        self.arm, self.free = arm, read_joint_set(arm, free, friction.boards)
         require_inertia(arm, self.free)
         self.friction: JointFriction = friction.of_joints(arm)
         self.name, self.better, self.unit = "tool drop with friction", "smaller", "m/s^2"
