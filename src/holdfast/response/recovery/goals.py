@@ -14,7 +14,8 @@ from holdfast.response.recovery.task_rows import RowSolver, list_subsets, relaxe
 
 _MAX_CONFIGURATIONS = 48  # configurations of a goal that are kept, the nearest ones
 _SELF_MOTION_STEPS = 12
-_LARGEST_STEP, _SMALLEST_STEP = 0.6, 0.3  # of the way to the start; halved where a step fails
+_LARGEST_STEP = 0.6  # of the way to the start
+_SMALLEST_STEP = 0.3  # the same, after a step that failed
 _DUPLICATE_TOLERANCE = 1e-4  # rad and m
 _STARTS_PER_SET = 96
 _SLSQP_OPTIONS: Any = {"ftol": 1e-12, "maxiter": 100}  # the tolerance is a fraction of the squared error at the start
