@@ -199,11 +199,7 @@ def build_view_section(
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
     """Build an HTML page with a view of the arm, with joint sliders if there is no motion. Options as in :func:`scene`."""
-    from markupsafe import Markup
-
-    arm_scene = scene(arm, q, **({"joints": True} | options))
-    caption = f"{arm.name} in three dimensions"
-    view: Markup = arm_scene.to_html("arm", caption)
+    view = scene(arm, q, **({"joints": True} | options)).to_html("arm", f"{arm.name} in three dimensions")
     return Html(viewer.build_view_page(view, arm.title))
 
 
@@ -345,8 +341,7 @@ def _place_camera(
     """Return a camera that shows all points; it views a planar arm along the normal of its plane, other arms obliquely."""
     lower, upper = visible_points.min(axis=0), visible_points.max(axis=0)
     center = (lower + upper) / 2
-    right, upward, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
-    del upward
+    right, _, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
     azimuth, elevation = np.radians(-40.0), np.radians(18.0)
     normal = plane_normal(arm)
     if normal is not None:

@@ -286,7 +286,9 @@ def _draw_motion(recovery: Recovery) -> report.Figure:
         if has_motion:
             report.scenes.add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
         report.legend_below(figure, panels[0], 5)
-        figure.suptitle(report.format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
+        motion_text = f"{len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}" if has_motion else "no motion"
+        title = f"{arm.name}: {recovery.ending.phrase}, {motion_text}"
+        figure.suptitle(report.format_label(title, 110), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -310,12 +312,6 @@ def _draw_timing(recovery: Recovery) -> report.Figure:
         )
     ]
     return report.motions.motion_figure(panels, f"{recovery.arm.name}: {timed_motion.describe()}", "time, s")
-
-
-def _compose_title(recovery: Recovery) -> str:
-    if len(recovery.q) < 2:
-        return f"{recovery.arm.name}: {recovery.ending.phrase}, no motion"
-    return f"{recovery.arm.name}: {recovery.ending.phrase}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
 
 
 def _resample_path(waypoints: Any, count: int) -> Any:
