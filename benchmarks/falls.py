@@ -235,7 +235,7 @@ def contact_table(chosen: argparse.Namespace) -> str:
     """Rates of falls to their first contact, and how the contacts of both compare."""
     import holdfast as hf
 
-    hf.set_threads(THREADS)
+    hf.set_threads(1)  # as MuJoCo's loop
     clearance, duration, step = scene(), 2.0, 2e-3
     q, rates = moving_states(clearance, 2_000 if chosen.quick else 16_532)
     few = slice(0, 60 if chosen.quick else 200)
@@ -257,7 +257,7 @@ def contact_table(chosen: argparse.Namespace) -> str:
         )
         ratios = [(b / len(q[few])) / (a / len(q)) for a, b in zip(ours, theirs, strict=True)]
         speeds = (harness.number(len(x) / float(np.median(y))) for x, y in ((q, ours), (q[few], theirs)))
-        name = f"**holdfast {size * 1e3:g} ms, {THREADS} threads**"
+        name = f"**holdfast {size * 1e3:g} ms, 1 thread**"
         lines.append(f"| {name} | {harness.Spread.of(ours)} | {' | '.join(speeds)} | {harness.Spread.of(ratios)} |")
     fall, seen = run(), peer(q[few], rates[few])
     touched, contact = fall.contacts.pair[few] >= 0, fall.contacts

@@ -10,7 +10,7 @@ import re
 import subprocess
 from pathlib import Path
 
-SOURCE = Path(__file__).parents[1] / "src/holdfast/response/recovery/compiled/route_search.cpp"
+SOURCE = Path(__file__).parents[1] / "src/holdfast/model/collision/compiled/route_search.cpp"
 COMMAND = (
     "clang++-19 -std=c++20 -O2 -ffreestanding -fno-exceptions -fno-rtti -fno-math-errno -ffp-contract=fast "
     "-fno-strict-aliasing -fno-vectorize -fno-slp-vectorize -fno-unroll-loops -fno-asynchronous-unwind-tables "

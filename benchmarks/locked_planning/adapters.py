@@ -85,6 +85,7 @@ class Holdfast(Planner):
     def __init__(self, robot: Json, urdf: Path) -> None:
         super().__init__(robot, urdf)
         self.hf: Any = import_module("holdfast")
+        self.hf.set_threads(1)  # as the other planners
         self.arm = self.hf.arms.load(str(urdf), srdf=urdf.with_suffix(".srdf"))
         self.clearance = self.hf.Clearance(self.arm, cell=self.hf.Cell([], shape="meshes"))
 

@@ -44,6 +44,7 @@ export interface Experiment {
   stick: { limit: number; dead_zone: number };
   /** Radius of the target circle, m. */
   radius: number;
+  /** Cycles allowed; null for no limit. */
   cycle_limit: number | null;
   rating: string[];
   training: Criterion;

@@ -4,6 +4,7 @@
  */
 
 import type { Arm } from "./arm";
+import type { Experiment } from "./experiment";
 import type { EndMessage, PlannedTrial } from "./messages";
 import { norm, type Stick } from "./stick";
 
@@ -12,12 +13,7 @@ export type Ending = EndMessage["end"];
 /** Control law, start, target, m, and locked joint of a trial. */
 export type Task = Omit<PlannedTrial, "task">;
 
-export interface Rules {
-  /** Radius of the target circle, m. */
-  radius: number;
-  /** Cycles allowed; null for no limit. */
-  cycleLimit: number | null;
-}
+export type Rules = Pick<Experiment, "radius" | "cycle_limit">;
 
 export class Run {
   /** Cycles done. */
@@ -72,6 +68,6 @@ export class Run {
   private checked(abort: boolean): Ending | null {
     if (abort) return "aborted";
     if (this.inside && this.velocity.every((v) => v === 0)) return "arrived";
-    return this.rules.cycleLimit !== null && this.cycles >= this.rules.cycleLimit ? "time" : null;
+    return this.rules.cycle_limit !== null && this.cycles >= this.rules.cycle_limit ? "time" : null;
   }
 }

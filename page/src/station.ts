@@ -7,7 +7,6 @@ import type { Device } from "./input/device";
 import { FORMAT, type Done, type Hello, type Plan, type Welcome } from "./messages";
 import { Outbox, type Body } from "./outbox";
 import { Random } from "./random";
-import type { Rules } from "./run";
 import { Frame } from "./screens/frame";
 import { Stick } from "./stick";
 import type { Storage } from "./storage";
@@ -23,16 +22,9 @@ export interface Progress extends Done {
   over: boolean;
 }
 
-export interface Addresses {
-  session: string;
-  /** Address at which the next subject begins. */
-  begin: string;
-}
-
 export class Station {
   readonly texts: Texts;
   readonly stick: Stick;
-  readonly rules: Rules;
   readonly clock = new Clock();
   readonly frame: Frame;
   /** Simulated operator of a dry run; null with a person. */
@@ -57,14 +49,14 @@ export class Station {
     readonly experiment: Experiment,
     readonly arm: Arm,
     readonly storage: Storage,
-    readonly addresses: Addresses,
+    /** Addresses of the session, and of the page on which the next subject begins. */
+    readonly addresses: { session: string; begin: string },
     readonly robotSeed: number | null,
     /** A session that this page was told to resume. */
     handed: string | null,
   ) {
     this.texts = new Texts(experiment.texts);
     this.stick = new Stick(experiment.stick.limit, experiment.stick.dead_zone);
-    this.rules = { radius: experiment.radius, cycleLimit: experiment.cycle_limit };
     this.robot = robotSeed === null ? null : new Random(robotSeed);
     this.frame = new Frame(this.texts);
     const kept = storage.kept;

@@ -9,7 +9,7 @@ function cycles(seed: number, rate: number): number {
   const limit = 0.3 / rate;
   const robot = new Robot(seed, 2, limit, rate, 0.1);
   const target = [1.2, -0.9];
-  const rules = { radius: 0.1, cycleLimit: null };
+  const rules = { radius: 0.1, cycle_limit: null };
   const run = new Run(slides, { law: 0, q0: [0, 0], target, joint: -1 }, new Stick(limit, limit / 10), rules);
   const deflection = new Float64Array(2);
   robot.begin();

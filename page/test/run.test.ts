@@ -6,7 +6,7 @@ import { slides } from "./toy";
 const stick = new Stick(0.05, 0.005);
 const task: Task = { law: 0, q0: [0, 0], target: [0.2, 0], joint: -1 };
 const run = (cycleLimit: number | null = null, over: Partial<Task> = {}): Run =>
-  new Run(slides, { ...task, ...over }, stick, { radius: 0.1, cycleLimit });
+  new Run(slides, { ...task, ...over }, stick, { radius: 0.1, cycle_limit: cycleLimit });
 
 test("a trial ends by stopping inside the circle, not by passing through it", () => {
   const r = run();

@@ -7,13 +7,6 @@ import { splitRows, type Rows } from "./small_matrices";
 export type Values = ArrayLike<number>;
 export const GENERIC_JOINTS = 9; // of the kernels for any arm, as in build.py
 
-/** A step of the inverse kinematics. */
-export interface KinematicStep {
-  next: Float64Array;
-  /** Norm of the error before the step: rad, and lengths in units of the arm's own length. */
-  error: number;
-}
-
 export class ArmModel {
   readonly jointCount: number;
   /** Number of joints minus the number of task rows, at least 0. */
@@ -72,8 +65,11 @@ export class ArmModel {
     return basis;
   }
 
-  /** Step towards a pose of the tool by the free joints (n, each 0 or 1), within the limits. */
-  stepTowards(q: Values, target: Values, free: Values): KinematicStep {
+  /**
+   * Step towards a pose of the tool by the free joints (n, each 0 or 1), within the limits. The error is that before the step:
+   * rad, and lengths in units of the arm's own length.
+   */
+  stepTowards(q: Values, target: Values, free: Values): { next: Float64Array; error: number } {
     const outputs = this.evaluate(this.kernels.inverseKinematicsStep, [q, target, free], this.width + 1);
     return { next: outputs.subarray(0, this.jointCount), error: outputs[this.width] };
   }

@@ -8,7 +8,7 @@ import { Overlay, type OverlayContent } from "../viewer/overlay";
 import { createToggle, createViewButtons, JointSliders } from "../viewer/controls";
 import { listJoints, readAddress, writeAddress, type Condition, type PageState } from "./address";
 import { ArmModel } from "./arm_model";
-import { Bars, nextCondition, type BarValues } from "./bars";
+import { Bars, NEXT_CONDITION, type BarValues } from "./bars";
 import { reproduce, writeCommands, type Code } from "./commands";
 import type { ArmPageData, PrintedKernels } from "./data";
 import { relativeManipulability, worstJoint } from "./failures";
@@ -138,7 +138,7 @@ export class ArmPage<Data extends ArmPageData = ArmPageData> {
 
   /** Change the condition of the joint of a part of the picture. */
   protected selectPart({ joint }: Part): void {
-    if (joint !== undefined) this.selectCondition(joint, nextCondition(this.state.conditions[joint]));
+    if (joint !== undefined) this.selectCondition(joint, NEXT_CONDITION[this.state.conditions[joint]]);
   }
 
   private selectCondition(joint: number, condition: Condition): void {

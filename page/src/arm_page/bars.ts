@@ -4,8 +4,7 @@ import { setText } from "../dom";
 import type { Condition } from "./address";
 import { fillText } from "./phrases";
 
-const NEXT: Record<Condition, Condition> = { healthy: "locked", locked: "free", free: "healthy" };
-export const nextCondition = (condition: Condition): Condition => NEXT[condition];
+export const NEXT_CONDITION: Record<Condition, Condition> = { healthy: "locked", locked: "free", free: "healthy" };
 
 export interface BarValues {
   /** Length of each bar, from 0 to 1, and its text. */
@@ -27,7 +26,7 @@ export class Bars {
   ) {
     this.buttons = [...list.querySelectorAll("button")];
     this.buttons.forEach((button, joint) =>
-      button.addEventListener("click", () => change(joint, NEXT[button.dataset.condition as Condition])),
+      button.addEventListener("click", () => change(joint, NEXT_CONDITION[button.dataset.condition as Condition])),
     );
   }
 
@@ -38,7 +37,7 @@ export class Bars {
       button.dataset.worst = String(joint === worst);
       button.style.setProperty("--fraction", String(Math.min(fractions[joint], 1)));
       const state = condition === "healthy" ? (joint === worst ? this.texts.worst : "") : this.texts[condition];
-      const next = fillText(meaning, { next: this.texts[`make_${NEXT[condition]}`] });
+      const next = fillText(meaning, { next: this.texts[`make_${NEXT_CONDITION[condition]}`] });
       for (const [name, text] of [["bar-value", texts[joint]], ["bar-condition", state], ["visually-hidden", next]]) {
         setText(button.querySelector(`.${name}`) as HTMLElement, text);
       }

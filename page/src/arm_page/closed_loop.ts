@@ -2,6 +2,7 @@
 
 import type { Vector } from "../viewer/scene";
 import type { ArmModel, Values } from "./arm_model";
+import type { Story } from "./data";
 import { addScaled, combineRows, dotProduct, vectorNorm } from "./small_matrices";
 
 const CONTROL_STEP_S = 0.02;
@@ -24,15 +25,6 @@ const ERRORS = [71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525
 /** Distance from the target at which the motion ends, m. */
 const END_M = 0.001;
 
-export interface ControlSettings {
-  /** Key in `PrintedKernels.laws`. */
-  law: string;
-  /** Proportional gain, 1/s. */
-  gain: number;
-  /** Maximum commanded speed of the tool, m/s. */
-  speed: number;
-}
-
 export interface ControlledMotion {
   /** Times of the configurations, s. */
   time: number[];
@@ -41,13 +33,13 @@ export interface ControlledMotion {
   deviation: number;
 }
 
-/** Simulate 12 s of a motion from q to a target, m, or less if the tool arrives or the law has no answer. */
+/** Simulate 12 s of a motion under a law of `PrintedKernels.laws` to a target, m, or less if it arrives or has no answer. */
 export function simulateControl(
   arm: ArmModel,
   q: Values,
   target: Vector,
   locked: readonly number[],
-  settings: ControlSettings,
+  settings: { law: string } & Pick<Story, "gain" | "speed">,
 ): ControlledMotion {
   const free = arm.freeJoints(locked);
   const errorAt = (state: Float64Array): Float64Array => addScaled(target, arm.toolPosition(state), -1);

@@ -40,14 +40,11 @@ export function columnNorms(rows: Rows, count: number): Float64Array {
   return squares.map(Math.sqrt);
 }
 
-/** Orthonormal rows, and the lower triangular factor with `rows = lower basis`; a dependent row has a basis row of zeros. */
-export interface RowFactors {
-  basis: Rows;
-  lower: Rows;
-}
-
-/** Factor rows by the Gram-Schmidt method, twice for each row, which avoids the squared condition number of `J J'`. */
-export function factorRows(rows: Rows): RowFactors {
+/**
+ * Return orthonormal rows, and the lower triangular factor with `rows = lower basis`; a dependent row has a basis row of zeros.
+ * The Gram-Schmidt method, twice for each row, avoids the squared condition number of `J J'`.
+ */
+export function factorRows(rows: Rows): { basis: Rows; lower: Rows } {
   const basis: Rows = [];
   const lower = rows.map(() => new Float64Array(rows.length));
   rows.forEach((row, i) => {
@@ -83,14 +80,8 @@ export function solveTransposed(lower: Rows, b: Float64Array): Float64Array {
   return x;
 }
 
-/** A singular value of a matrix, and its left singular vector. */
-export interface SingularValue {
-  value: number;
-  direction: Float64Array;
-}
-
-/** Return a singular value for each row, largest first, by one-sided Jacobi rotations. */
-export function findSingularValues(rows: ArrayLike<number>[]): SingularValue[] {
+/** Return a singular value for each row with its left singular vector, largest first, by one-sided Jacobi rotations. */
+export function findSingularValues(rows: ArrayLike<number>[]): { value: number; direction: Float64Array }[] {
   const rotated = rows.map((row) => Float64Array.from(row));
   const directions = rows.map((_, i) => Float64Array.from(rows, (_row, k) => (i === k ? 1 : 0)));
   for (let sweep = 0, largestCosine = 1; sweep < MAX_SWEEPS && largestCosine > 1e-16; sweep++) {

@@ -138,7 +138,7 @@ export class LockStep extends Step {
       ],
       lost: this.lost
         .filter((motion) => motion.remaining < 0.99)
-        .map((motion) => ({ center, twist: [...motion.twist], label: formatPercent(motion.remaining) })),
+        .map((motion) => ({ center, twist: [...motion.twist], words: formatPercent(motion.remaining) })),
     };
   }
 }

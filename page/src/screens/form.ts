@@ -18,7 +18,7 @@ interface Field {
 /** @returns the answers; null where the person declined */
 export function showForm(element: HTMLElement, station: Station, form: Form): Promise<Record<string, Answer> | null> {
   return new Promise((resolve) => {
-    const fields = form.questions.map((q) => createField(q, station));
+    const fields = form.questions.map((q) => CREATORS[q.kind](q, station));
     const submit = (): void => {
       const answers = collect(fields, station);
       if (answers !== null) resolve(answers);
@@ -57,18 +57,13 @@ function collect(fields: Field[], station: Station): Record<string, Answer> | nu
   return first === null ? answers : null;
 }
 
-function createField(q: Question, station: Station): Field {
-  switch (q.kind) {
-    case "choice":
-      return createChoice(q, station);
-    case "check":
-      return createCheck(q);
-    case "scale":
-      return createScale(q, station);
-    default:
-      return createEntry(q, station);
-  }
-}
+const CREATORS: Record<Question["kind"], (q: Question, station: Station) => Field> = {
+  choice: createChoice,
+  check: createCheck,
+  scale: createScale,
+  number: createEntry,
+  text: createEntry,
+};
 
 function createChoice(q: Question, station: Station): Field {
   const { name, options = [] } = q;

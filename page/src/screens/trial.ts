@@ -83,8 +83,8 @@ class Trial {
   }
 
   private fresh(): Run {
-    const { arm, stick, rules } = this.station;
-    return new Run(arm, this.spec.task, stick, rules);
+    const { arm, stick, experiment } = this.station;
+    return new Run(arm, this.spec.task, stick, experiment);
   }
 
   private enter(phase: Phase, text: string): void {

@@ -5,7 +5,7 @@ import { createSvg } from "../dom";
 import { place, sum } from "./algebra";
 import { project } from "./camera";
 import { hull, spreadDirections } from "./hulls";
-import type { Vector } from "./scene";
+import type { Lost, Vector } from "./scene";
 import { mark } from "./things";
 import type { View } from "./view";
 
@@ -20,18 +20,11 @@ export interface Trail {
   style: "solid" | "dotted" | "dashed" | "green" | "orange" | "purple";
 }
 
-export interface LostMotion {
-  center: Vector;
-  /** Linear, then angular, world frame, of norm 1. */
-  twist: number[];
-  label: string;
-}
-
 /** What lies over a picture, in the world. */
 export interface OverlayContent {
   ellipsoids?: DrawnEllipsoid[];
   trails?: Trail[];
-  lost?: LostMotion[];
+  lost?: (Lost & { center: Vector })[];
   /** A dotted line from the tool to where the pointer wants it. */
   pointerLine?: [Vector, Vector];
   /** The shortest distance from the arm to an object. */
@@ -76,12 +69,12 @@ function drawEllipsoid(locate: Project, { center, halfAxes, directions, style }:
 }
 
 /** Draw a lost motion: arrows in both directions, a ring about the axis of rotation, and a label within the width in pixels. */
-function drawLostMotion(locate: Project, { center, twist, label }: LostMotion, length: number, width: number): SVGElement {
-  const { lines, end } = mark({ twist, words: label }, center, length);
+function drawLostMotion(locate: Project, lost: Lost, center: Vector, length: number, width: number): SVGElement {
+  const { lines, end } = mark(lost, center, length);
   const segments = lines.flatMap((start, k) => (k % 2 ? [] : [formatPath([locate(start), locate(lines[k + 1])])]));
   const [x, y] = locate(end);
-  const left = Math.min(x + 10, width - LETTER_PX * label.length);
-  const text = createSvg("text", { class: "overlay-label", x: left.toFixed(1), y: (y - 6).toFixed(1) }, label);
+  const left = Math.min(x + 10, width - LETTER_PX * lost.words.length);
+  const text = createSvg("text", { class: "overlay-label", x: left.toFixed(1), y: (y - 6).toFixed(1) }, lost.words);
   return group("lost", createSvg("path", { d: segments.join("") }), text);
 }
 
@@ -115,7 +108,7 @@ export class Overlay {
     this.element.replaceChildren(
       ...ellipsoids.map((ellipsoid) => drawEllipsoid(locate, ellipsoid)),
       ...trails.map((trail) => drawTrail(locate, trail)),
-      ...lost.map((motion) => drawLostMotion(locate, motion, LOST_LENGTH * view.scene.size, clientWidth)),
+      ...lost.map((motion) => drawLostMotion(locate, motion, motion.center, LOST_LENGTH * view.scene.size, clientWidth)),
       ...view.scene.joints.flatMap((_, k) => (view.condition(k) === "locked" ? [drawPadlock(locate, place(poses[k + 1]))] : [])),
       ...[["gap", pointerLine], ["nearest", nearestLine]].flatMap(([name, line]) =>
         line ? [createSvg("path", { class: `overlay-${name}`, d: formatPath((line as Vector[]).map(locate)) })] : []),

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.core.progress import ProgressCount, ignore_count
-from holdfast.core.typing import FloatArray
-from holdfast.kernels.kernel import Kernel
+from holdfast.core.typing import FloatArray, IndexArray
+from holdfast.kernels.kernel import Kernel, empty_columns
 from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
 
 Tell = Callable[[int], None]
+Inspect = tuple[int, Callable[[IndexArray, FloatArray, FloatArray], NDArray[np.bool_]]]
 
 _WORKER_BYTES = 1 << 19  # bytes of state, parameters and results of one worker, so that they stay in its cache
 _MAX_WORKER_ROWS = 4096  # largest number of these rows
@@ -199,6 +200,58 @@ class Loop:
             now += 1
             last = min(int(begun.min()) + batch.most_steps, told + _STEPS_PER_REPORT)
 
+    def run_in_spans(
+        self, state: FloatArray, parameters: FloatArray, rows: IndexArray, tolerance: float, most_steps: int, inspect: Inspect
+    ) -> NDArray[np.bool_]:
+        """Iterate rows as :meth:`run` does, inspect them at regular intervals, and return (N,) which reached the tolerance.
+
+        Args:
+            state: (N, s) states, of which those of the rows are replaced.
+            parameters: (N, p) all parameters of a row one after the other, matrices row by row; p is above 0.
+            rows: (R,) rows to iterate.
+            tolerance: Largest residual of a finished row, in the unit of the residual.
+            most_steps: Maximum number of steps of a row, rounded up to whole spans.
+            inspect: Number of steps of a span, and a function that is called after each span with the row numbers (W,) and the
+                columns (s, W or more) before and after it. It returns (W,) True for rows that end.
+        """
+        (steps, find_ended), size, width = inspect, self.size, 2 * self._width  # the inspection pays for a larger width
+        active, waiting, done = rows[:width].copy(), rows[width:], np.zeros(len(state), dtype=np.bool_)
+        begun, now, current = np.zeros(active.size, dtype=np.int64), 0, 0
+        buffers, step = self._bind_three_columns(state[active].T, parameters[active].T)
+        with ProgressCount(f"starts of {self.step.name}", rows.size) as report:
+            while active.size:
+                start = current
+                for number in range(steps):
+                    before, current = current, (start + 1 + number % 2) % 3
+                    step[before, current]()
+                    is_done = buffers[current][size, : active.size] <= tolerance
+                    buffers[current][size] = buffers[start][size]  # the residual is where the first parameter was
+                columns, now = buffers[current], now + steps
+                is_over = is_done | find_ended(active, buffers[start][:size], columns[:size]) | (now - begun >= most_steps)
+                places = is_over.nonzero()[0]
+                if not places.size:
+                    continue
+                state[active[places]], done[active[places]] = columns[:size, places].T, is_done[places]
+                report(places.size)
+                fresh, waiting = waiting[: places.size], waiting[places.size :]
+                places, gone = places[: fresh.size], places[fresh.size :]
+                columns[:size, places], active[places], begun[places] = state[fresh].T, fresh, now
+                for buffer in buffers:
+                    buffer[size:, places] = parameters[fresh].T
+                if gone.size:
+                    active, begun, still = (np.delete(x, gone) for x in (active, begun, np.arange(active.size)))
+                    if still.size:
+                        (buffers, step), current = self._bind_three_columns(columns.take(still, axis=1)), 0
+        return done
+
+    def _bind_three_columns(self, *values: FloatArray) -> tuple[list[FloatArray], dict[tuple[int, int], Callable[[], None]]]:
+        """Return the columns of states and parameters three times, and the steps from each of them to the others."""
+        first = self._bind_step_columns(*values)[0]
+        buffers = [first, empty_columns(*first.shape), empty_columns(*first.shape)]
+        buffers[1][:] = buffers[2][:] = first
+        pairs = [(k, m) for k in range(3) for m in range(3) if k != m]
+        return buffers, {(k, m): self.step.bind_arrays(buffers[k], buffers[m][: self.size + 1]) for k, m in pairs}
+
     def trace_states(self, state: FloatArray, parameters: FloatArray, steps: int) -> FloatArray:
         """Return the states (steps + 1, N, s) from ``state`` (N, s) on, for ``parameters`` (N, p) and ``steps`` steps."""
         states = np.empty((steps + 1, *state.shape))
@@ -217,7 +270,7 @@ class Loop:
         """
         used_width = values[0].shape[1]
         width = -(-used_width // self.step.lanes) * self.step.lanes
-        columns, outputs = np.empty((self.step.program.n_in, width)), np.empty((self.size + 1, width))
+        columns, outputs = empty_columns(self.step.program.n_in, width), empty_columns(self.size + 1, width)
         np.concatenate(values, out=columns[:, :used_width])
         columns[:, used_width:] = columns[:, used_width - 1 : used_width]
         return columns, outputs, self.step.bind_arrays(columns, outputs)

@@ -419,7 +419,7 @@ def test_the_overlay_draws_what_a_lock_takes(opened, rng):
             axes | {"halfAxes": [0.5, 0.4, 0.0], "style": "after"},
         ],
         "trails": [{"points": points, "style": style} for style in ("solid", "dotted", "dashed")],
-        "lost": [{"center": tool.tolist(), "twist": [0.6, 0, 0, 0, 0.8, 0], "label": "3 % <b>"}],
+        "lost": [{"center": tool.tolist(), "twist": [0.6, 0, 0, 0, 0.8, 0], "words": "3 % <b>"}],
         "pointerLine": [tool.tolist(), points[0]],
     }
     conditions = ["locked" if k in (1, 3) else "healthy" for k in range(7)]

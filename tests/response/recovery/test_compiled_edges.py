@@ -13,8 +13,8 @@ import holdfast as hf
 import oracles
 from holdfast.model.cell import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.model.collision.capsules import LinkCapsule
-from holdfast.response.recovery.compiled import edges as compiled_edges
-from holdfast.response.recovery.compiled.edges import EdgeChecker, RouteSearch
+from holdfast.model.collision.compiled import edges as compiled_edges
+from holdfast.model.collision.compiled.edges import EdgeChecker, RouteSearch
 from holdfast.response.recovery.space import MIN_RESOLVED_MOTION_M, FreeSpace, JointMetric
 
 NEAR_M = 5e-5  # single precision, for arms of a few metres

@@ -140,6 +140,18 @@ def test_waypoints_are_added_where_straight_lines_of_joints_leave_the_path():
     assert np.abs(tool - (0.8999 - 0.1499 * places)).max() < 6e-4
 
 
+def test_a_stretched_arm_follows_nothing_of_a_path_outwards():
+    three = hf.arms.load("planar-3r")
+    here = np.array([0.3, 0.0, 0.0])
+    begin = three.forward_kinematics(here)
+    end = begin.copy()
+    end[:3, 3] *= 1.1
+    path = hf.paths.line(begin, end)
+    result = hf.recover(three, ["joint2"], here, goal=None, path=path, task="planar", samples=0, relax=False)
+    assert result.rest.furthest == 0
+    assert result.verdict.answer == "proved infeasible"
+
+
 def test_a_motion_that_skips_a_pose_without_a_configuration_is_no_motion():
     """Between two samples of this path, the range of joint 4 ends for 2 mm; longer steps jump over it."""
     arm = hf.arms.load("panda")

@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import casadi as ca
 import numpy as np
 
-from holdfast.control.falls.passive_arm import largest, smallest
+from holdfast.control.falls.passive_arm import solve_selected
 from holdfast.control.falls.simulator import FallSimulator, FallStates
-from holdfast.control.simulation.system import LARGE_NUMBER, elementwise_max
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
-from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, shared_pool, thread_count
-from holdfast.model.arm import kinematics
+from holdfast.model.arm import kinematics, statics
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
-from holdfast.model.collision.capsules import BASE_LINK, Capsules
+from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.compiled.edges import EdgeChecker
+from holdfast.model.collision.compiled.spans import SpanChecker
 from holdfast.model.collision.contacts import MIN_DISTANCE_CHANGE_M, Contact
+from holdfast.model.collision.object_kernels import directional_jacobian
 from holdfast.model.collision.segments import LineSegment, closest_parameters
 
 CHECK_SPACING_S = 0.01  # simulated time between two computations of the distances
 REQUIRED_GAP_M = 1e-3  # pairs that touch at the power loss are checked once they are this far apart
 TIME_RESOLUTION_S = 2e-4  # of a contact; the distances are straight lines over a shorter span
+FINEST_PIECE_S = 2.5e-3  # pieces of spans that the compiled check does not halve
 BLOCK_DISTANCES = 1 << 22  # rows of a block times pairs
 MIN_BLOCK_ROWS = 1 << 10  # of the block of one thread
-MOST_WAITING_SPANS = 1 << 12  # between two checks, after which contacts are located in all of them together
+MOST_WAITING_SPANS = 1 << 14  # between two checks, after which contacts are located in all of them together
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,11 +87,10 @@ class ContactSearch:
     """Falls of one arm up to their first contacts.
 
     Each pair is checked every 10 ms. In between, a joint moves along the cubic polynomial through the positions and rates at
-    both ends. The points of a link differ from straight motions, whose longest is D, by at most a margin e
-    (:func:`_bound_kernel`). So a pair with the distances d_1 and d_2 at two instants comes no closer between them than
-    ``(d_1 + d_2 - D) / 2 - e``. If this is below 0, the span is halved, until the distance changes by less than half a
-    millimetre. The distances at an instant are only computed where ``d_1 - D < e``, with the last computed d_1 and the D of all
-    spans since. Only a contact less than a quarter of a millimetre deep may be missed.
+    both ends. Compiled code excludes contacts in most of these spans (:class:`SpanChecker`). The remaining pieces of spans are
+    checked pair by pair: a distance that changes at most at a rate L comes no lower within a duration T than half of
+    ``d_1 + d_2 - L T``, with the distances at both ends. If this is below 0, the piece is halved, until the distance changes by
+    less than half a millimetre. Only a contact less than a quarter of a millimetre deep may be missed.
 
     Args:
         simulator: Simulator of the falls.
@@ -105,13 +106,9 @@ class ContactSearch:
         is_stopped = simulator.has_stops & np.isfinite(arm.lower) & np.isfinite(arm.upper)
         travel = np.where(is_stopped, 0.0, np.linalg.norm(arm.gravity) * duration**2)
         reached = np.concatenate([limits, starts])
-        self.levers = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel).max(
-            axis=0, initial=0.0
-        )
-        self.bound_kernel = _bound_kernel(arm, clearance.capsules, tuple(clearance.pairs), clearance.obstacles is not None)
-        own_count, objects = len(clearance.pairs), 0 if clearance.obstacles is None else len(clearance.obstacles.cell)
-        others = np.arange(own_count, len(clearance.pair_names))
-        self.nearest_of_pair = np.concatenate([np.arange(own_count), own_count + (others - own_count) // max(objects, 1)])
+        self.lipschitz_bounds = clearance.lipschitz_bounds(reached.min(axis=0) - travel, reached.max(axis=0) + travel)
+        self.checker = SpanChecker(clearance, self.lipschitz_bounds) if EdgeChecker.supports(clearance) else None
+        self.time_row = simulator.stepper.layout.slices["time"].start
 
     def run(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         """Simulate falls up to their first contacts, or to given times; see :meth:`FallSimulator.run`."""
@@ -129,84 +126,124 @@ class ContactSearch:
     def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray, calls: int) -> FallStates:
         stepper, rows = self.simulator.stepper, np.arange(len(q))
         states, parameters, most_calls = self.simulator.make_rows(q, rates, until, step)
-        done, time, pair = np.zeros(len(q), dtype=np.bool_), until.copy(), np.full(len(q), -1, dtype=np.int64)
-        distances, ignored = self._measure_nearest(q), self.clearance.by_pair(q) < 0
+        origins, done = np.empty_like(states), np.zeros(len(q), dtype=np.bool_)  # states before the contacts
+        time, pair, ignored = until.copy(), np.full(len(q), -1, dtype=np.int64), self.find_touching(q)
         has_ignored = np.any(ignored, axis=1)
-        # Spans of falls in which a contact is possible.
-        spans: list[tuple[IndexArray, FloatArray, FloatArray, BoolArray]] = []
+        distances = np.zeros(ignored.shape) if self.checker else self.clearance.by_pair(q)  # lower bounds
+        spans: list[tuple[IndexArray, FloatArray, FloatArray]] = []  # falls and states at both ends, if a contact is possible
+        contacts: list[tuple[IndexArray, IndexArray, FloatArray]] = []  # their spans, pairs, and pieces (3, C)
+        paused: list[IndexArray] = []  # falls that seem to touch something
         span_count = 0
-        for remaining_checks in reversed(range(most_calls // calls + 1)):
-            before = states[rows]
-            result = stepper.loop.run(before, parameters[rows], 0.5, calls)
-            after, watched = self._view_instants(result.state), has_ignored[rows]
-            distances, margins, excess = self._bound_distances(self._view_instants(before), after, distances)
-            # The distances are computed only where these lower bounds do not exclude a contact.
-            doubtful = np.flatnonzero((excess < 0) | watched)
-            measured, is_running = self._measure_nearest(after.q[doubtful]), ~result.done
-            is_touching = np.any(measured < 0, axis=1)
-            is_near = (distances[doubtful] + measured < 2 * margins[doubtful]).any(axis=1)
-            possible = doubtful[is_touching | watched[doubtful] | is_near]
-            if possible.size:
+
+        def locate_contacts() -> None:
+            falls, before, after = (np.concatenate(parts, axis=-1) for parts in zip(*spans, strict=True))
+            possible = (np.concatenate(parts, axis=-1) for parts in zip(*contacts, strict=True))
+            starts = np.ascontiguousarray(before.T)
+            contact_times, touched = self._locate_contacts(starts, np.ascontiguousarray(after.T), *possible)
+            order = np.argsort(-contact_times)  # the earliest contact of a fall is assigned last
+            order = order[touched[order] >= 0]
+            time[falls[order]], pair[falls[order]], origins[falls[order]] = contact_times[order], touched[order], starts[order]
+            spans.clear()
+            contacts.clear()
+
+        def find_ended(falls: IndexArray, before: FloatArray, after: FloatArray) -> BoolArray:
+            nonlocal span_count
+            rows, pairs, pieces = np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros((3, 0))
+            is_touching, slow = np.zeros(falls.size, dtype=np.bool_), np.arange(falls.size)
+            if self.checker:
+                slow = has_ignored[falls].nonzero()[0]
+                found = self.checker.check_spans(before, after, falls.size, self.time_row, FINEST_PIECE_S)
+                rows, pairs, pieces, is_touching = found
+            if slow.size:
+                of_slow, at = np.isin(rows, slow), falls[slow]
+                start, end = (self._view_instants(columns[:, slow].T) for columns in (before, after))
+                near, near_pairs, near_rates, is_touching[slow] = self._check_spans(start, end, distances, ignored, at)
+                has_ignored[at] = np.any(ignored[at], axis=1)
+                rows, pairs = np.append(rows[~of_slow], slow[near]), np.append(pairs[~of_slow], near_pairs)
+                whole = np.array([np.zeros(near.size), np.ones(near.size), near_rates])
+                pieces = np.hstack([pieces[:, ~of_slow], whole])
+            if rows.size:
+                is_possible = np.zeros(falls.size, dtype=np.bool_)
+                is_possible[rows] = True
+                possible = is_possible.nonzero()[0]
+                spans.append((falls[possible], before[:, possible], after[: len(before), possible]))
+                contacts.append((span_count - 1 + np.cumsum(is_possible)[rows], pairs, pieces))
+                paused.append(falls[is_touching])
                 span_count += possible.size
-                spans.append((rows[possible], before[possible], result.state[possible], ignored[rows[possible]]))
-            distances[doubtful] = measured
-            is_running[doubtful[is_touching & ~watched[doubtful]]] = False
-            if watched.any():
-                by_pair, falls = self.clearance.by_pair(after.q[watched]), rows[watched]
-                is_running[watched] &= ((by_pair >= 0) | ignored[falls]).all(axis=1)
-                ignored[falls] &= by_pair < REQUIRED_GAP_M
-                has_ignored[falls] = np.any(ignored[falls], axis=1)
-            states[rows], done[rows] = result.state, result.done
-            rows, distances = rows[is_running], distances[is_running]
-            if spans and not (rows.size and remaining_checks and span_count <= MOST_WAITING_SPANS):
-                falls, starts, ends, were_ignored = map(np.concatenate, zip(*spans, strict=True))
-                contact_times, pairs = self._locate_contacts(starts, ends, were_ignored)
-                order = np.argsort(-contact_times)  # the earliest contact of a fall is assigned last
-                order = order[pairs[order] >= 0]
-                time[falls[order]], pair[falls[order]], states[falls[order]] = contact_times[order], pairs[order], starts[order]
-                spans, span_count, is_clear = [], 0, np.flatnonzero(pair[rows] < 0)
-                rows, distances = rows[is_clear], distances[is_clear]
-            if not rows.size:
-                break
+                if span_count > MOST_WAITING_SPANS:
+                    locate_contacts()
+                    span_count = 0
+                    is_touching |= pair[falls] >= 0
+            return is_touching
+
+        while rows.size:
+            done[rows] = stepper.loop.run_in_spans(states, parameters, rows, 0.5, most_calls, (calls, find_ended))[rows]
+            if spans:
+                locate_contacts()
+            rows, span_count = np.concatenate([*paused, rows[:0]]), 0
+            rows = rows[(pair[rows] < 0) & ~done[rows]]
+            paused.clear()
         touching = np.flatnonzero(pair >= 0)
-        for name, values in stepper.layout.view_parts(states).items():
+        for name, values in stepper.layout.view_parts(origins).items():
             if name in ("step", "tries", "mode"):
                 values[touching] = 0.0  # the step to the contact is a new one
         stepper.parameters.view_parts(parameters)["until"][touching, 0] = time[touching]
-        result = stepper.loop.run(states[touching], parameters[touching], 0.5, most_calls)
+        result = stepper.loop.run(origins[touching], parameters[touching], 0.5, most_calls)
         states[touching], done[touching] = result.state, result.done
         return self.simulator.read_states(q, states, done, pair)
+
+    def find_touching(self, q: FloatArray) -> BoolArray:
+        """Return (N, P) True for pairs that touch at configurations (N, n)."""
+        touching, rows = np.zeros((len(q), len(self.clearance.pair_names)), dtype=np.bool_), np.arange(len(q))
+        if self.checker:
+            columns = np.zeros((2 * q.shape[1] + 1, len(q)))  # at rest, at time 0
+            columns[: q.shape[1]] = q.T
+            rows = np.unique(self.checker.check_spans(columns, columns, len(q), 2 * q.shape[1])[0])
+        for part in np.array_split(rows, 1 + touching[rows].size // BLOCK_DISTANCES):
+            touching[part] = self.clearance.by_pair(q[part]) < 0
+        return touching
 
     def _view_instants(self, states: FloatArray) -> _Instant:
         """Return the instants of states of the loop."""
         parts = self.simulator.stepper.layout.view_parts(states)
         return _Instant(time=parts["time"][:, 0], q=parts["q"], rates=parts["rates"])
 
-    def _bound_distances(self, start: _Instant, end: _Instant, distances: FloatArray) -> tuple[FloatArray, ...]:
-        """Return lower bounds of :meth:`_measure_nearest` at the end, margins (R, 1), and excesses (R,), m."""
-        motion = start.q, start.rates, end.q, end.rates, end.time - start.time
-        bounds = self.bound_kernel.rows(*motion, np.broadcast_to(self.levers, start.q.shape), distances)
-        return bounds[:, :-2], bounds[:, -2:-1], bounds[:, -1]
+    def _check_spans(
+        self, start: _Instant, end: _Instant, distances: FloatArray, ignored: BoolArray, falls: IndexArray
+    ) -> tuple[IndexArray, IndexArray, FloatArray, BoolArray]:
+        """Return the spans, pairs, and rates (C,) of possible contacts, and for spans (R,) whether there is one at the end.
 
-    def _measure_nearest(self, q: FloatArray) -> FloatArray:
-        """Return the distances (R, K) of all pairs of links, and of each link from its nearest object."""
-        distances, obstacles = self.clearance.self_only.by_pair(q), self.clearance.obstacles
-        return distances if obstacles is None else np.hstack([distances, obstacles.smallest_by_link(q)])
+        ``distances`` and ``ignored`` (N, P) of the falls (R,) become those at the end. Distances are computed only where their
+        lower bounds do not exclude a contact.
+        """
+        first, last = ((end.time - start.time)[:, None] * part.rates for part in (start, end))
+        # The derivatives of the cubic polynomials are between their Bernstein coefficients.
+        speeds = np.abs([first, last, 3 * (end.q - start.q) - first - last]).max(axis=0)
+        rates = speeds @ self.lipschitz_bounds.T
+        bounds, counts = distances[falls] - rates, ~ignored[falls]
+        doubtful = np.flatnonzero(np.any(bounds < 0, axis=1) | ~counts.all(axis=1))
+        last, counts = self.clearance.by_pair(end.q[doubtful]), counts[doubtful]
+        touching = np.zeros(len(falls), dtype=np.bool_)
+        touching[doubtful] = np.any((last < 0) & counts, axis=1)
+        rows, pairs = np.nonzero(((bounds[doubtful] + last < 0) | (last < 0)) & counts)
+        bounds[doubtful] = last
+        distances[falls] = bounds if self.checker is None else 0.0
+        ignored[falls[doubtful]] = ~counts & (last < REQUIRED_GAP_M)
+        return doubtful[rows], pairs, rates[doubtful[rows], pairs], touching
 
-    def _locate_contacts(self, starts: FloatArray, ends: FloatArray, ignored: BoolArray) -> tuple[FloatArray, IndexArray]:
+    def _locate_contacts(
+        self, starts: FloatArray, ends: FloatArray, falls: IndexArray, pairs: IndexArray, pieces: FloatArray
+    ) -> tuple[FloatArray, IndexArray]:
         """Return the times (R,) and the pairs (R,) of the first contacts between states; infinite and -1 for none.
 
-        A span of time in which a contact of a pair is possible is split until it is excluded or located.
+        Contacts of pairs (C,) are possible in pieces (3, C) of the spans of falls (C,); see :class:`SpanChecker`. A piece is
+        split until a contact is excluded or located.
         """
         start, end = self._view_instants(starts), self._view_instants(ends)
-        duration, first, last = end.time - start.time, self.clearance.by_pair(start.q), self.clearance.by_pair(end.q)
-        bounds, margins, _ = self._bound_distances(start, end, np.zeros((len(first), 1 + self.nearest_of_pair.max(initial=-1))))
-        is_near = first + last + bounds[:, self.nearest_of_pair] < 2 * margins
-        falls, pairs = np.nonzero((is_near | (last < 0)) & ~ignored)
-        polynomials = _interpolate(start, end)  # of the fraction of the duration
-        rates = 4 * margins[falls, 0] - bounds[falls, self.nearest_of_pair[pairs]]
-        spans = np.array([np.zeros(falls.size), np.ones(falls.size), first[falls, pairs], last[falls, pairs], rates])
-        fraction, pair = np.full(len(ignored), np.inf), np.full(len(ignored), -1, dtype=np.int64)
+        duration, polynomials = end.time - start.time, _interpolate(start, end)  # of the fraction of the duration
+        distances = [self._measure_pairs(_evaluate(polynomials, falls, fraction), pairs) for fraction in pieces[:2]]
+        spans = np.array([*pieces[:2], *distances, pieces[2]])
+        fraction, pair = np.full(len(starts), np.inf), np.full(len(starts), -1, dtype=np.int64)
         latest = fraction.copy()  # fractions at which a contact has begun
         while falls.size:
             before, after, first_distance, last_distance, rates = spans
@@ -217,20 +254,16 @@ class ContactSearch:
             # A span that begins in contact has its contact at its beginning.
             approach = np.maximum(first_distance - last_distance, 1e-300)
             instants = before + np.where(first_distance > 0, first_distance / approach, 0.0) * width
-            instants[~(touching & is_fine)] = np.inf
-            order = np.argsort(-instants)  # the earliest contact of a fall is assigned last
-            order = order[instants[order] < fraction[falls[order]]]
+            earlier = np.flatnonzero(touching & is_fine & (instants < fraction[falls]))
+            order = earlier[np.argsort(-instants[earlier])]  # the earliest contact of a fall is assigned last
             fraction[falls[order]], pair[falls[order]] = instants[order], pairs[order]
             split = is_possible & ~is_fine & (before < latest[falls])
             falls, pairs, (before, after, first_distance, last_distance, rates) = falls[split], pairs[split], spans[:, split]
-            middle, chosen = (before + after) / 2, polynomials[falls]
-            q, s = chosen[:, 3], middle[:, None]
-            for power in (2, 1, 0):
-                q = chosen[:, power] + s * q
-            distance = self._measure_pairs(q, pairs)
+            middle = (before + after) / 2
+            distance = self._measure_pairs(_evaluate(polynomials, falls, middle), pairs)
             halves = [before, middle, first_distance, distance, rates], [middle, after, distance, last_distance, rates]
             falls, pairs, spans = np.tile(falls, 2), np.tile(pairs, 2), np.concatenate(halves, axis=1)
-        return start.time + fraction * duration, pair
+        return start.time + np.where(pair < 0, np.inf, fraction) * np.maximum(duration, 1e-300), pair
 
     def _measure_pairs(self, q: FloatArray, pairs: IndexArray) -> FloatArray:
         """Return the distance (R,) of one pair at each configuration (R, n)."""
@@ -242,69 +275,63 @@ class ContactSearch:
         return distances
 
 
-@lru_cache(maxsize=16)
-@cached_kernel
-def _bound_kernel(arm: Arm, capsules: Capsules, pairs: tuple[tuple[int, int], ...], has_objects: bool) -> Kernel:
-    """Return the kernel of two states, their distance in time, s, levers (n,), and distances (K,), m.
-
-    Its results are the distances minus displacements (K,), a margin, and the least excess of these over the margin, m. A
-    displacement is the largest of the points of a link: for each pair of links as seen from the first one, then for each link
-    with capsules as seen from the base. In between, a point differs from its straight motion by at most the margin, which is an
-    eighth of a bound on its second derivative. The levers bound the distances of all points from the joint axes, m.
-    """
-    parts, n = capsules.parts, arm.n
-    q, rates, later_q, later_rates, levers = (ca.SX.sym(name, n) for name in ("q", "v", "q1", "v1", "l"))
-    duration = ca.SX.sym("t")
-    ends = [kinematics.joint_transforms(arm, x) for x in (q, later_q)]
-
-    def find_largest(numbers: list[int], seen_from: int) -> SX:
-        poses = [kinematics.body_and_joint_frames(arm, steps, seen_from + 1)[0] for steps in ends]
-        squares = []
-        for part, end in ((parts[number], end) for number in numbers for end in ("start", "end")):
-            point = kinematics.constant_matrix(np.array(getattr(part, end)))
-            before, after = (rotation @ point + position for rotation, position in (pose[part.link + 1] for pose in poses))
-            squares.append(ca.sumsqr(after - before))
-        return ca.sqrt(largest(ca.vertcat(*squares)))
-
-    links = sorted({part.link for part in parts} - {BASE_LINK}) if has_objects else []
-    own = [find_largest([second], parts[first].link) for first, second in pairs]
-    moved = [find_largest([k for k, part in enumerate(parts) if part.link == link], BASE_LINK) for link in links]
-    # On the cubic polynomials, rates and accelerations are between Bernstein coefficients. The unit of time is the duration.
-    chord, first, last = later_q - q, duration * rates, duration * later_rates
-    speed = elementwise_max(elementwise_max(ca.fabs(first), ca.fabs(last)), ca.fabs(3 * chord - first - last))
-    bend = elementwise_max(ca.fabs(6 * chord - 4 * first - 2 * last), ca.fabs(6 * chord - 2 * first - 4 * last))
-    margin = ca.dot(levers, bend + speed * (2 * ca.cumsum(speed) - speed)) / 8
-    distances = ca.SX.sym("d", len(own) + len(moved))
-    bounds = distances - ca.vertcat(*own, *moved)
-    inputs = [q, rates, later_q, later_rates, duration, levers, distances]
-    return Kernel("bounds of distances", inputs, [bounds, margin, smallest(ca.vertcat(bounds, LARGE_NUMBER)) - margin])
-
-
 def _interpolate(start: _Instant, end: _Instant) -> FloatArray:
-    """Return the coefficients (R, 4, n) of the cubic polynomials between two instants, from the constant one on."""
+    """Return the coefficients (4, R, n) of the cubic polynomials between two instants, from the constant one on."""
     duration = (end.time - start.time)[:, None]
     chord, first, last = end.q - start.q, duration * start.rates, duration * end.rates
-    return np.stack([start.q, first, 3 * chord - 2 * first - last, first + last - 2 * chord], axis=1)
+    return np.stack([start.q, first, 3 * chord - 2 * first - last, first + last - 2 * chord])
 
 
-def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, starts: FloatArray, states: FallStates) -> Rows:
-    """Return the fields of :class:`FallContacts` that have rows, for falls from ``starts`` (N, n) to their contacts."""
-    arm, free, q, pair = simulator.arm, np.asarray(simulator.conditions["free"]) > 0, states.q, states.pair
-    frames, joints = arm.frames(q), np.arange(arm.n)
-    point, normal = np.full((len(q), 3), np.nan), np.full((len(q), 3), np.nan)
-    side = np.zeros((len(q), arm.n))  # 1 if the joint moves only the link, -1 if it moves only the other link
-    for index in np.unique(pair[pair >= 0]):
-        rows = pair == index
-        point[rows], normal[rows], link, other = _locate_contact_points(clearance, int(index), frames[rows])
-        side[rows] = (joints <= link).astype(float) - (joints <= other)
-    axes = np.einsum("nkij,kj->nki", frames[:, 1:-1, :3, :3], [joint.axis for joint in arm.joints])
-    levers = np.cross(axes, point[:, None] - frames[:, 1:-1, :3, 3])
-    gradient = side * np.einsum("nki,ni->nk", np.where(arm.prismatic[:, None], axes, levers), normal)
-    speed, free_gradient = -np.sum(gradient * states.rates, axis=1), (gradient * free)[:, :, None]
-    inertia = np.where(np.outer(free, free), simulator.inertia_matrices(q), np.eye(arm.n))
-    mobility = np.sum(free_gradient * np.linalg.solve(inertia, free_gradient), axis=(1, 2))  # NaN without contact
+def _evaluate(polynomials: FloatArray, rows: IndexArray, fraction: FloatArray) -> FloatArray:
+    """Return the values (C, n) of some of the polynomials (4, R, n) at fractions (C,)."""
+    values, s = polynomials[3][rows], fraction[:, None]
+    for coefficients in polynomials[2::-1]:
+        values *= s
+        values += coefficients[rows]
+    return np.asarray(values)
+
+
+@lru_cache(maxsize=16)
+@cached_kernel
+def _contact_kernel(arm: Arm) -> Kernel:
+    """Return the kernel of a configuration, rates, a contact point and its normal (3,), and signs and free joints (n,).
+
+    A sign is that of the motion of the link relative to the object by a joint. The results are the speed at which the link
+    approaches along the normal, the inverse of the effective mass, and the kinetic energy.
+    """
+    q, (rates, side, free) = kinematics.joint_symbols(arm), (ca.SX.sym(name, arm.n) for name in ("v", "s", "f"))
+    point, normal = ca.SX.sym("p", 3), ca.SX.sym("n", 3)
+    gradient = side * ca.vertcat(*directional_jacobian(arm, q, ca.SX(arm.n), ca.vertsplit(point), ca.vertsplit(normal)))
+    matrix, nothing = statics.inertia_matrix(arm, q), ca.SX(arm.n, 1)
+    mobility = ca.dot(gradient, solve_selected(matrix, gradient, free, nothing))
+    results = [-ca.dot(gradient, rates), mobility, ca.dot(rates, matrix @ rates) / 2]
+    return Kernel("contact of a fall", [q, rates, point, normal, side, free], results)
+
+
+def collect_contact_fields(search: ContactSearch, initial: BoolArray, states: FallStates) -> Rows:
+    """Return the fields of :class:`FallContacts` that have rows, for falls with ``initial`` contacts (N, P) to later ones."""
+    simulator, clearance = search.simulator, search.clearance
+    arm, free, q, pair = simulator.arm, np.asarray(simulator.conditions["free"]), states.q, states.pair
+    (point, normal), links, joints = np.full((2, len(q), 3), np.nan), np.full((2, len(q)), BASE_LINK), np.arange(arm.n)
+    own_count, obstacles = len(clearance.pairs), clearance.obstacles
+    own, other = np.flatnonzero((pair >= 0) & (pair < own_count)), np.flatnonzero(pair >= own_count)
+    if obstacles is not None and other.size:
+        point[other], normal[other] = obstacles.find_contact_points(q[other], pair[other] - own_count)
+        links[0, other] = obstacles.pairs[pair[other] - own_count, 0]
+    if own.size:
+        parts, chosen = clearance.capsules.parts, np.array(clearance.pairs)[pair[own]].T
+        links[:, own] = np.array([part.link for part in parts])[chosen]
+        ends, frames = np.array([[part.start, part.end] for part in parts]), arm.frames(q[own])
+        poses = [frames[np.arange(own.size), of_part + 1] for of_part in links[:, own]]
+        squares = np.array([part.length**2 or 1.0 for part in parts])[chosen].T
+        first, second = np.split(_closest_points_kernel().rows(*poses, *ends[chosen], squares), 2, axis=1)
+        normal[own] = (first - second) / np.maximum(np.linalg.norm(first - second, axis=1, keepdims=True), 1e-300)
+        point[own] = first - np.array([part.radius for part in parts])[chosen[0], None] * normal[own]
+    # 1 if a joint moves only the link, -1 if it moves only the other link. Objects are fixed, as is the base.
+    side = (joints <= links[0, :, None]).astype(float) - (joints <= links[1, :, None])
+    motion = _contact_kernel(arm).rows(q, states.rates, point, normal, side, np.broadcast_to(free, q.shape))
+    speed, mobility, kinetic = motion.T  # NaN without contact
     mass = 1 / np.where(mobility == 0, np.nan, mobility)
-    block_count = 1 + pair.size * len(clearance.pair_names) // BLOCK_DISTANCES
     return {
         "pair": pair,
         "time": np.where(pair < 0, np.nan, states.time),
@@ -313,30 +340,20 @@ def collect_contact_fields(simulator: FallSimulator, clearance: Clearance, start
         "normal_speed": speed,
         "effective_mass": mass,
         "energy_lost": mass / 2 * speed**2,
-        "kinetic_energy": np.where(pair < 0, np.nan, simulator.energies(q, states.rates)[1]),
-        "initial": np.concatenate([clearance.by_pair(block) < 0 for block in np.array_split(starts, block_count)]),
+        "kinetic_energy": kinetic,
+        "initial": initial,
     }
 
 
-def _locate_contact_points(clearance: Clearance, pair: int, frames: FloatArray) -> tuple[FloatArray, FloatArray, int, int]:
-    """Return points on the link and unit vectors from the object to it (N, 3), and the indices of the link and the object.
-
-    The index of an object of the cell is that of the base, which is fixed as well.
-    """
-    own = len(clearance.pairs)
-    if pair >= own and clearance.obstacles is not None:
-        link = int(clearance.obstacles.pairs[pair - own, 0])
-        point, _, normal = clearance.obstacles.find_closest_points(pair - own, frames[:, link + 1])
-        return point, normal, link, BASE_LINK
-    parts = [clearance.capsules.parts[index] for index in clearance.pairs[pair]]
-    ends, symbols, segments = [], [], []
-    for part in parts:
-        pose, symbol = frames[:, part.link + 1], ca.SX.sym("ends", 2, 3)
-        ends.append(np.array([part.start, part.end]) @ pose[:, :3, :3].swapaxes(1, 2) + pose[:, None, :3, 3])
-        segments.append(LineSegment(symbol[0, :].T, (symbol[1, :] - symbol[0, :]).T, part.length**2))
-        symbols.append(symbol)
+@cache
+def _closest_points_kernel() -> Kernel:
+    """Return the kernel of two poses, two segments (2, 3) in them, and their squared lengths, to their closest points (3,)."""
+    poses, ends = (
+        [ca.SX.sym(name, rows, rows if rows == 4 else 3) for _ in range(2)] for name, rows in (("pose", 4), ("ends", 2))
+    )
+    squares, segments = ca.SX.sym("squares", 2), []
+    for k in range(2):
+        placed = poses[k][:3, :3] @ ends[k].T + ca.repmat(poses[k][:3, 3], 1, 2)
+        segments.append(LineSegment(placed[:, 0], placed[:, 1] - placed[:, 0], squares[k]))
     closest = [segment.point_at(s) for segment, s in zip(segments, closest_parameters(*segments), strict=True)]
-    kernel = Kernel("closest points of two capsules", symbols, closest, backend="casadi")
-    first, second = np.split(kernel.rows(*ends), 2, axis=1)
-    normal = (first - second) / np.maximum(np.linalg.norm(first - second, axis=1, keepdims=True), 1e-300)
-    return first - parts[0].radius * normal, normal, parts[0].link, parts[1].link
+    return Kernel("closest points of two capsules", [*poses, *ends, squares], closest)

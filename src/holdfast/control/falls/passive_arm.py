@@ -8,7 +8,7 @@ from functools import lru_cache
 import casadi as ca
 
 from holdfast.control.falls.drop_points import DropPoints, find_down_direction
-from holdfast.control.simulation.system import ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
+from holdfast.control.simulation.system import LARGE_NUMBER, ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
 from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
 from holdfast.kernels.kernel import Kernel
@@ -19,6 +19,9 @@ from holdfast.model.arm import dynamics, kinematics, statics
 from holdfast.model.arm.model import Arm
 
 TIME_ROUNDING_S = 1e-12  # s: two times that differ by less are equal
+# Conditions without brakes and rebound in which all joints are free; programs for them are shorter.
+PLAIN_CONDITIONS = dict.fromkeys(("load", "brake_torque", "brake_damping", "restitution"), 0.0)
+PLAIN_CONDITIONS |= {"free": 1.0, "brake_time": LARGE_NUMBER}
 FIXED_INERTIA = 1e100  # kg m^2 or kg; nothing accelerates it by as much as the rounding of a number
 
 
@@ -28,20 +31,23 @@ class PassiveArm:
     The parameters of a row are the mask ``free`` of the joints that lose their torque (n,); Coulomb friction, stiction, and
     brake torque (n,), N m or N; the ``load`` share of friction (n,); viscous friction and the damping of the brakes (n,),
     N m s/rad or N s/m; the ``brake_time``, s; the coefficient of ``restitution`` of the stops; the end ``until``, s; the
-    ``longest_step``, s; and the coordinates ``start_depth`` (P,) along gravity, m, of the points whose drop is computed.
+    ``longest_step``, s; and the coordinates ``start_depth`` (P,) along gravity, m, of the points whose drop is computed. Under
+    plain conditions those in ``PLAIN_CONDITIONS`` are constants.
     """
 
     steps_per_call = 1
     layout: ColumnLayout
 
-    def __init__(self, arm: Arm, points: DropPoints | None = None) -> None:
-        self.arm, self.points = arm, points or DropPoints.choose(arm)
-        self.made_of: object = arm, self.points
+    def __init__(self, arm: Arm, points: DropPoints | None = None, is_plain: bool = False) -> None:
+        self.arm, self.points, self.is_plain = arm, points or DropPoints.choose(arm), is_plain
+        self.made_of: object = arm, self.points, is_plain
         sizes = dict.fromkeys(("free", "coulomb", "stiction", "load", "viscous", "brake_torque", "brake_damping"), arm.n)
         sizes |= dict.fromkeys(("brake_time", "restitution", "until", "longest_step"), 1)
         sizes["start_depth"] = len(self.points.links)
         self.symbols = {name: ca.SX.sym(name, size) for name, size in sizes.items()}
-        self.parameters = ParameterLayout(**self.symbols)
+        constants = PLAIN_CONDITIONS if is_plain else {}
+        self.parameters = ParameterLayout(**{name: self.symbols[name] for name in sizes if name not in constants})
+        self.symbols |= {name: ca.densify(ca.SX(value) * ca.SX.ones(sizes[name])) for name, value in constants.items()}
 
     @cached_property
     @cached_kernel
@@ -55,7 +61,7 @@ class PassiveArm:
 
     def is_braked(self, time: SX) -> SX:
         """Return 1 if the brakes act at a time, else 0."""
-        return time >= self.symbols["brake_time"] - TIME_ROUNDING_S
+        return ca.SX(0) if self.is_plain else time >= self.symbols["brake_time"] - TIME_ROUNDING_S
 
     def damping(self, time: SX) -> SX:
         """Return the viscous friction (n,), including that of the brakes."""
@@ -98,7 +104,7 @@ def solve_selected(matrix: SX, right_side: SX, selected: SX, fixed: SX) -> SX:
         selected: (n,) 1 for an unknown, 0 for a fixed entry of x.
         fixed: (n,) values of the fixed entries.
     """
-    remaining = right_side - matrix @ ((1 - selected) * fixed)
+    remaining = ca.if_else(selected, right_side, FIXED_INERTIA * fixed)
     heavy = matrix + ca.diag(FIXED_INERTIA * (1 - selected))
     solution = ca.vertcat(*solve_spd([ca.horzsplit(row) for row in ca.vertsplit(heavy)], ca.vertsplit(ca.densify(remaining))))
     return ca.if_else(selected, solution, fixed)
@@ -121,11 +127,6 @@ def any_of(conditions: SX) -> SX:
 def largest(values: SX) -> SX:
     """Return the largest entry of a vector."""
     return _fold(ca.vertsplit(ca.densify(values)), lambda a, b: ca.if_else(a > b, a, b))
-
-
-def smallest(values: SX) -> SX:
-    """Return the smallest entry of a vector."""
-    return _fold(ca.vertsplit(ca.densify(values)), elementwise_min)
 
 
 def _fold(values: list[SX], combine: Callable[[SX, SX], SX]) -> SX:

@@ -17,7 +17,7 @@ from holdfast.control.simulation.system import LARGE_NUMBER
 from holdfast.core.errors import ArmError, InputError
 from holdfast.core.progress import reports_progress
 from holdfast.core.status import Status
-from holdfast.core.typing import FloatArray, IndexArray, Rows
+from holdfast.core.typing import BoolArray, FloatArray, IndexArray, Rows
 from holdfast.core.validation import check_arguments, require_real_numbers
 from holdfast.kinematics.holding.static_check import STOP_TOLERANCE
 from holdfast.model.arm.configurations import as_configurations
@@ -119,10 +119,11 @@ def power_loss(
     model = chosen_clearance(arm, clearance, cell, looks=False)
     points = DropPoints.choose(arm, of, None if model is None else model.capsules)
     simulator = FallSimulator(arm, stops, conditions, is_stiff, points)
-    runner: FallSimulator | ContactSearch = simulator
-    if model is not None:
-        _check_start_contacts(model, starts[rows], rows)
-        runner = ContactSearch(simulator, model, starts[rows], duration)
+    search = None if model is None else ContactSearch(simulator, model, starts[rows], duration)
+    initial = None if search is None else search.find_touching(starts[rows])
+    if model is not None and initial is not None:
+        _check_start_contacts(model, starts[rows], rows, initial)
+    runner = search or simulator
     states, errors, steps[rows] = _simulate(simulator, runner, starts[rows], start_rates[rows], duration, steps[rows], accuracy)
     fields = _collect_fields(simulator, starts[rows], start_rates[rows], states)
     fields["status"] = np.where(states.is_finished, Status.OK, Status.INACCURATE).astype(np.uint8)
@@ -135,8 +136,8 @@ def power_loss(
     values["code"][~is_finite] = FallOutcome.UNKNOWN
     values |= {"q": starts, "rates": start_rates, "step": steps}
     contacts: Rows = {}
-    if model is not None:
-        contacts = collect_contact_fields(simulator, model, starts[rows], states)
+    if search is not None and initial is not None:
+        contacts = collect_contact_fields(search, initial, states)
         contacts = {name: _spread_rows(value, rows, len(starts)) for name, value in contacts.items()}
         contacts["pair"][~is_finite] = -1
     if is_single:
@@ -266,10 +267,11 @@ def _check_limits(arm: Arm, q: FloatArray, rows: IndexArray, is_free: FloatArray
         )
 
 
-def _check_start_contacts(clearance: Clearance, q: FloatArray, rows: IndexArray) -> None:
+def _check_start_contacts(clearance: Clearance, q: FloatArray, rows: IndexArray, touching: BoolArray) -> None:
     if clearance.obstacles is None:
         return
-    inside = np.flatnonzero(clearance.obstacles.smallest_distance(q) < -REQUIRED_GAP_M)
+    inside = np.flatnonzero(touching[:, len(clearance.pairs) :].any(axis=1))
+    inside = inside[clearance.obstacles.smallest_distance(q[inside]) < -REQUIRED_GAP_M]
     if inside.size:
         distances = clearance.obstacles.pair_distances(q[inside[:1]])[0]
         link, _, name = clearance.obstacles.names[distances.argmin()].partition(" & ")

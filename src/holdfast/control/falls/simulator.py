@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.control.falls.drop_points import DropPoints
-from holdfast.control.falls.passive_arm import energy_kernel
+from holdfast.control.falls.passive_arm import PLAIN_CONDITIONS, PassiveArm, energy_kernel
 from holdfast.control.falls.smooth import SmoothStepper
 from holdfast.control.falls.stepping import DryFrictionStepper
 from holdfast.control.simulation.system import STATE_AT_REST
@@ -77,8 +77,11 @@ class FallSimulator:
         self.arm, self.has_stops, self.conditions, self.is_stiff = arm, has_stops, conditions, is_stiff
         has_limits = has_stops and bool(np.isfinite([arm.lower, arm.upper]).any())
         is_dry = any(np.any(conditions[name]) for name in ("stiction", "load", "brake_torque"))
+        is_plain = all(np.all(conditions[name] == value) for name, value in PLAIN_CONDITIONS.items())
         is_smooth = not (has_limits or is_dry or is_stiff)
-        self.stepper = compiled_smooth_stepper(arm, points) if is_smooth else compiled_stepper(arm, points, has_limits)
+        self.stepper: PassiveArm = (
+            compiled_smooth_stepper(arm, points, is_plain) if is_smooth else compiled_stepper(arm, points, is_plain, has_limits)
+        )
         self.points = self.stepper.points
         self.energy_kernel: Kernel = energy_kernel(arm)
 
@@ -105,7 +108,8 @@ class FallSimulator:
         states = np.zeros((len(q), self.stepper.layout.size))
         parts = self.stepper.layout.view_parts(states)
         parts["q"][:], parts["rates"][:] = q, rates
-        parameters = self.stepper.parameters.make_rows(len(q), **self.conditions)
+        names = self.conditions.keys() & self.stepper.parameters.slices.keys()
+        parameters = self.stepper.parameters.make_rows(len(q), **{name: self.conditions[name] for name in names})
         columns = self.stepper.parameters.view_parts(parameters)
         columns["until"][:, 0], columns["longest_step"][:, 0] = until, step
         columns["start_depth"][:] = self.points.depths(self.arm, q)

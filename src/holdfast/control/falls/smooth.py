@@ -27,8 +27,8 @@ class SmoothStepper(PassiveArm):
     ``residual``, which is 0, and the ``code``.
     """
 
-    def __init__(self, arm: Arm, points: DropPoints | None = None) -> None:
-        super().__init__(arm, points)
+    def __init__(self, arm: Arm, points: DropPoints | None, is_plain: bool) -> None:
+        super().__init__(arm, points, is_plain)
         self.layout = ColumnLayout(q=arm.n, rates=arm.n, time=1, drop=1, residual=1, code=1)
 
     def _build_call(self, parts: dict[str, SX]) -> dict[str, SX]:

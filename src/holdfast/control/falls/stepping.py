@@ -20,7 +20,7 @@ import casadi as ca
 import numpy as np
 
 from holdfast.control.falls.drop_points import DropPoints
-from holdfast.control.falls.passive_arm import TIME_ROUNDING_S, PassiveArm, any_of, largest, smallest, solve_selected
+from holdfast.control.falls.passive_arm import TIME_ROUNDING_S, PassiveArm, any_of, largest, solve_selected
 from holdfast.control.simulation.system import (
     LARGE_NUMBER,
     STATE_AT_REST,
@@ -29,6 +29,7 @@ from holdfast.control.simulation.system import (
     ColumnLayout,
     choose_parts,
     elementwise_max,
+    elementwise_min,
 )
 from holdfast.kernels.program import SX
 from holdfast.model.arm import dynamics, statics
@@ -37,6 +38,7 @@ from holdfast.model.arm.model import Arm
 STOP_TOLERANCE = 1e-9  # rad or m: a step that ends this close to a stop ends at the stop
 REST_RATE = 1e-9  # rad/s or m/s: a slower joint does not hit a stop, it lies against it
 RATE_ROUNDING = 1e-12  # rad/s or m/s
+FRACTION_ROUNDING = 1 + 1e-12  # a joint that ceases to move this close to the end of a shortened step does so at its end
 TRIES_TOGETHER = 12  # corrections of the set that may change all joints; later corrections change one joint each
 MOST_TRIES = 60
 
@@ -85,9 +87,9 @@ class DryFrictionStepper(PassiveArm):
 
     steps_per_call = 2  # the loop around a call takes a fifth of the time of one step
 
-    def __init__(self, arm: Arm, points: DropPoints | None, has_stops: bool) -> None:
-        super().__init__(arm, points)
-        self.made_of, n = (arm, self.points, has_stops), arm.n
+    def __init__(self, arm: Arm, points: DropPoints | None, is_plain: bool, has_stops: bool) -> None:
+        super().__init__(arm, points, is_plain)
+        self.made_of, n = (arm, self.points, is_plain, has_stops), arm.n
         self.lower = np.where(np.isfinite(arm.lower) & has_stops, arm.lower, -LARGE_NUMBER)
         self.upper = np.where(np.isfinite(arm.upper) & has_stops, arm.upper, LARGE_NUMBER)
         scalars = dict.fromkeys(("step", "tries", "time", "drop", "residual", "code"), 1)
@@ -190,20 +192,29 @@ class DryFrictionStepper(PassiveArm):
     def _find_event(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution) -> tuple[SX, SX]:
         """Return the fraction of the step at which a joint first reaches a stop or ceases to move, and the modes for that.
 
-        The fraction is 1 if there is no event. The positions are parabolas over the step, and the rates straight lines.
+        The fraction is 1 if there is no event. The positions are parabolas over the step, and the rates straight lines. Of
+        several joints that reach stops, only the one whose chord does so first counts. The shorter step is tried again.
         """
         q, rates, mode, h = parts["q"], parts["rates"], parts["mode"], conditions.h
         end = q + h / 2 * (rates + solution.rates)
         is_low = 2 * end < self.lower + self.upper  # only this limit can be crossed
         side, limit = ca.if_else(is_low, 1.0, -1.0), ca.if_else(is_low, self.lower, self.upper)
-        first, second = side * h * rates, side * h / 2 * (solution.rates - rates)
-        to_stop = _crossing_fraction(side * (q - limit), side * (end - limit), first, second, self.symbols["free"])
+        start, overshoot = side * (q - limit), side * (limit - end)
+        crosses = ca.logic_and(self.symbols["free"], overshoot > STOP_TOLERANCE)
+        motion = ca.horzcat(side * h * rates, side * h / 2 * (solution.rates - rates))
+        first_start, _, first, second = _select_smallest_ratio(
+            ca.if_else(crosses, start, 1.0), ca.if_else(crosses, start + overshoot, 0.0), motion
+        )
+        to_stop = _crossing_fraction(first_start, first, second, any_of(crosses))
         is_stopping = ca.logic_and(solution.is_active, ca.logic_and(conditions.is_moving, conditions.sliding_friction > 0))
         is_stopping = ca.logic_and(is_stopping, solution.direction * solution.rates < -RATE_ROUNDING)
-        to_rest = ca.if_else(is_stopping, rates / ca.if_else(is_stopping, rates - solution.rates, 1.0), 1.0)
-        fraction = smallest(ca.vertcat(to_stop, to_rest))
+        speed, change = ca.fabs(rates), ca.fabs(rates - solution.rates)
+        first_speed, first_change = _select_smallest_ratio(
+            ca.if_else(is_stopping, speed, 1.0), ca.if_else(is_stopping, change, 1.0), ca.SX(self.arm.n, 0)
+        )
+        fraction = elementwise_min(to_stop, first_speed / first_change)
         fraction = ca.if_else(conditions.is_impact, 1.0, fraction)
-        rests_first = ca.logic_and(is_stopping, to_rest <= fraction)
+        rests_first = ca.logic_and(is_stopping, speed <= fraction * FRACTION_ROUNDING * change)
         return fraction, ca.if_else(rests_first, MODE_STOPPING, ca.if_else(mode == MODE_STOPPING, MODE_HELD, mode))
 
     def _advance(self, parts: dict[str, SX], conditions: _Conditions, solution: _Solution, excess: SX) -> dict[str, SX]:
@@ -241,9 +252,18 @@ class DryFrictionStepper(PassiveArm):
         return {**moved, **choose_parts(is_at_rest, unchanged, moved)}
 
 
-def _crossing_fraction(start: SX, end: SX, first: SX, second: SX, is_free: SX) -> SX:
-    """Return the first x in (0, 1) at which ``start + first x + second x^2`` of a free joint falls through 0; 1 without it."""
-    crosses = ca.logic_and(is_free, end < -STOP_TOLERANCE)
+def _select_smallest_ratio(dividends: SX, divisors: SX, others: SX) -> list[SX]:
+    """Return the dividend, the divisor, and the row of ``others`` (n, k) of the smallest ratio; divisors are not negative."""
+    rows = [ca.horzsplit(row) for row in ca.vertsplit(ca.horzcat(dividends, divisors, others))]
+    best = rows[0]
+    for row in rows[1:]:
+        is_smaller = row[0] * best[1] < best[0] * row[1]
+        best = [ca.if_else(is_smaller, a, b) for a, b in zip(row, best, strict=True)]
+    return list(best)
+
+
+def _crossing_fraction(start: SX, first: SX, second: SX, crosses: SX) -> SX:
+    """Return the first x in (0, 1) at which ``start + first x + second x^2`` falls through 0; 1 if it does not cross."""
     root = ca.sqrt(ca.if_else(crosses, elementwise_max(first * first - 4 * second * start, 0.0), 1.0))
     is_leaving = first > 0
     # Each quotient is that without cancellation.

@@ -165,7 +165,8 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
             drawn_figure = drawn[name] if drawn and name in drawn else figure.draw()
             image = report.svg(drawn_figure, name, f"{presentation.title}: {figure.title.lower()}")
             figure_blocks.setdefault(figure.title, []).append(Picture(image, figure.caption))
-    is_at_top = [bool(fact.phrase) and not _is_uninformative(fact.text) for fact in presentation.facts]
+    # A number that is zero or missing is omitted at the top of the page.
+    is_at_top = [bool(fact.phrase) and fact.text.partition(" ")[0] not in ("0", "–", "none") for fact in presentation.facts]
     facts = list(zip(presentation.facts, is_at_top, strict=True))
     small_facts = [[fact.label, fact.text] for fact, at_top in facts if fact.label and not at_top]
     tables = [TextTable(["", ""], small_facts)] if small_facts else []
@@ -186,11 +187,6 @@ def build_page(presentation: Presentation, command: str = "", drawn: Mapping[str
         method=build_method_blocks(presentation.arm, *presentation.method),
         again=command if presentation.again is None else presentation.again(),
     )
-
-
-def _is_uninformative(text: str) -> bool:
-    """Return whether a number is zero or missing and therefore omitted at the top of the page."""
-    return text.partition(" ")[0] in ("0", "–", "none")
 
 
 def build_table_block(table: TextTable) -> Any:

@@ -178,12 +178,6 @@ def _format_cell_value(value: float) -> str:
         return "∞"
     if abs(value) < 1e-9:
         return "0"
-    return (
-        f"{value:.2f}"
-        if 0.01 <= abs(value) < 10
-        else f"{value:.2g}"
-        if abs(value) < 0.01
-        else f"{value:.0f}"
-        if abs(value) < 1e4
-        else f"{value:.0e}"
-    )
+    if abs(value) < 10:
+        return f"{value:.2g}" if abs(value) < 0.01 else f"{value:.2f}"
+    return f"{value:.0f}" if abs(value) < 1e4 else f"{value:.0e}"

@@ -181,16 +181,10 @@ class _PanelLayout:
     def to_template_data(self, x: float, y: float, axes_width: float) -> dict[str, Any]:
         """Return the data for the template, with the upper left corner of the axes at x, y (pixels)."""
         moments = self._time_scale.to_fraction(np.array(self._panel.moments, dtype=float))
-        styled_paths = [
-            (
-                line_style,
-                _to_svg_path(
-                    x + axes_width * self._time_scale.to_fraction(self._time),
-                    y + self._height * (1 - self._value_scale.to_fraction(line.values)),
-                ),
-            )
-            for line_style, line in zip(self._line_styles, self._panel.lines, strict=True)
-        ]
+        across = x + axes_width * self._time_scale.to_fraction(self._time)
+        heights = (y + self._height * (1 - self._value_scale.to_fraction(line.values)) for line in self._panel.lines)
+        paths = (_to_svg_path(across, height) for height in heights)
+        styled_paths = list(zip(self._line_styles, paths, strict=True))
         styled_paths += [(_MOMENT_STYLE, f"M{x + axes_width * fraction:.2f} {y:g}v{self._height:g}") for fraction in moments]
         return {
             "x": round(x, 2),

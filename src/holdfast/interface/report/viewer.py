@@ -63,9 +63,9 @@ class ViewerScene:
         """
         escaped_about = escape(about, quote=True)
         labels = [arm["label"] for arm in self.data["arms"]]
-        swatch = '<i style="background:{}"></i>{}'
+        swatch = '<span><i style="background:{}"></i>{}</span>'
         colors = ["#8b96a1", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
-        legend = [swatch.format(colors[k % 5], escape(part)) for k, part in enumerate(labels)] if len(labels) > 1 else []
+        legend = " ".join(swatch.format(colors[k % 5], escape(label)) for k, label in enumerate(labels))
         locked_names = [
             joint["name"] for joint, value in zip(self.data["joints"], self.data["locked"], strict=True) if value is not None
         ]
@@ -83,11 +83,7 @@ class ViewerScene:
             f'<div class="view3d-stage">{draw_scene_svg(self, about)}<canvas tabindex="0" role="img" '
             f'aria-label="{escaped_about}"></canvas>'
             '</div>\n<div class="view3d-controls"></div>\n'
-            + (
-                f'<p class="view3d-legend">{" ".join(f"<span>{text_part}</span>" for text_part in legend)}</p>\n'
-                if legend
-                else ""
-            )
+            + (f'<p class="view3d-legend">{legend}</p>\n' if len(labels) > 1 else "")
             + "".join(_VIEW_NOTE.format(escape(line)) + "\n" for line in self.notes)
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in joint_notes)
             + '<p class="view3d-hint">Enable JavaScript to rotate this view.</p>\n'

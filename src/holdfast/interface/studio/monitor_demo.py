@@ -36,14 +36,11 @@ FAULT_PARAMETERS: Mapping[str, Mapping[str, float | str]] = MappingProxyType(
     }
 )
 LATEST_ONSET_S = 4.0  # latest onset of a fault, s
-# SPEED_LIMIT_M_S, LAW_GAIN_PER_S and MOTION_TIME_LIMIT_S: limits and gain of the motions, m/s, 1/s, s
 SPEED_LIMIT_M_S = 0.25
 LAW_GAIN_PER_S = 2.0
 MOTION_TIME_LIMIT_S = 8.0
-# HEALTHY_MOTIONS and THRESHOLD_FACTOR: number of motions for the thresholds, and factor on their largest residuals, which is
-# large because the motions are few
-HEALTHY_MOTIONS = 4
-THRESHOLD_FACTOR = 2.0
+HEALTHY_MOTIONS = 4  # motions from which the thresholds are computed
+THRESHOLD_FACTOR = 2.0  # on their largest residuals; it is large because the motions are few
 MAX_LINE_POINTS = 150  # points of the line of a residual
 MOTION_SAMPLES = 240  # configurations of a shown motion under a law
 

@@ -183,16 +183,13 @@ def is_own_request(hosts: Sequence[str], origins: Sequence[str], served: str) ->
         origins: ``Origin`` headers of the request.
         served: Address on which the studio listens, as given by the user.
     """
-    return (
-        request_rejection_reason(
-            hosts, origins, lambda name: name in ("localhost", served.lower()) or _is_safe_host_name(name, served)
-        )
-        is None
-    )
+    return request_rejection_reason(hosts, origins, lambda name: _is_safe_host_name(name, served)) is None
 
 
 def _is_safe_host_name(name: str, served: str) -> bool:
     """Return True if no other page can have this host name, because it is an address or this machine's own name."""
+    if name in ("localhost", served.lower()):
+        return True
     is_exposed = not is_loopback_host(served.lower())
     try:
         return ipaddress.ip_address(name).is_loopback or is_exposed

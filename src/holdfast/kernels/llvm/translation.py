@@ -87,10 +87,11 @@ ret void
 
     def emit_nan_guard(self) -> str:
         """Emit zero, or NaN in rows with an input that is not finite, also if the expression ignores that input."""
-        total = zero = self.constant(0.0)
+        zero = self.constant(0.0)
+        totals = [zero] * 4  # four sums, because each addition waits for the one before
         for k in range(self.program.n_in):
-            total = self.add(self.mul(self._load(k), zero), total)
-        return total
+            totals[k % 4] = self.fma(self._load(k), zero, totals[k % 4])
+        return self.add(self.add(totals[0], totals[1]), self.add(totals[2], totals[3]))
 
     # ---- instructions ------------------------------------------------------------------------------------------
 

@@ -223,10 +223,13 @@ class ConstraintManifold:
 def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the angles by which axes (N, 3) must rotate to their direction or into the cone, and the axes (N, k, 3)."""
     assert constraint.direction is not None
-    across = np.cross(axis, constraint.direction)
+    x, y, z = constraint.direction.tolist()
+    across = axis @ np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])  # of few rows, as here, np.cross takes longer
     sine = np.linalg.norm(across, axis=1)
     angle = np.arctan2(sine, axis @ constraint.direction)
-    rotation_axis = np.where(sine[:, None] > 1e-9, across / np.maximum(sine, 1e-12)[:, None], _perpendicular_vectors(axis))
+    rotation_axis, is_parallel = across / np.maximum(sine, 1e-12)[:, None], sine <= 1e-9
+    if is_parallel.any():
+        rotation_axis[is_parallel] = _perpendicular_vectors(axis[is_parallel])
     if constraint.angle == 0:
         return angle[:, None] * rotation_axis, np.eye(3) - axis[:, :, None] * axis[:, None, :]
     outside = angle > constraint.angle - _ROUNDING_M_RAD

@@ -33,17 +33,26 @@ FAR_AWAY_M = 1e9  # m: distance of pairs that are not checked
 
 @cached_kernel
 def distance_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
-    """Compile the least distance from a block of objects, of the arm, of each link, and of each link from each object.
-
-    There are 1 + L + L BLOCK distances for L moving links.
+    """Compile the least distance from a block of objects: 1 + L BLOCK distances, of the arm and of each link from each object.
 
     Inputs: q (n,) and the block (BLOCK, 18 + L): the numbers of each object, and the offset of its distance from each link.
     """
     q, objects, sphere_positions = _kernel_symbols(arm, spheres)
     columns = [_distances_by_link(spheres, sphere_positions, objects[object_index, :]) for object_index in range(BLOCK_OBJECTS)]
     by_link = [column[link_position][0] for link_position in range(len(columns[0])) for column in columns]
-    nearest = [select_smallest(by_link[first : first + BLOCK_OBJECTS]) for first in range(0, len(by_link), BLOCK_OBJECTS)]
-    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(select_smallest(nearest), *nearest, *by_link)])
+    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(select_smallest(by_link), *by_link)])
+
+
+@cached_kernel
+def link_distance_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
+    """Compile the distance of the only link with spheres from an object, whose inputs (19,) are as in :func:`distance_kernel`.
+
+    The other results are the center (3,) and the radius of the nearest sphere, and the unit vector (3,) away from the object.
+    """
+    q, sphere_positions = sphere_centers(arm, spheres)
+    numbers = ca.SX.sym("numbers", OBJECT_PARAMETERS + 1)
+    distance, center, radius = _distances_by_link(spheres, sphere_positions, numbers)[0]
+    return Kernel("distance from an object", [q, numbers], [distance, *center, radius, *_outward_gradient(numbers, center)])
 
 
 @cached_kernel
@@ -52,7 +61,9 @@ def nearest_gradient_kernel(arm: ArmData, spheres: SphereCover) -> Kernel:
     q, objects, sphere_positions = _kernel_symbols(arm, spheres)
     best: Vector = []
     for object_index in range(BLOCK_OBJECTS):
-        for link_position, (value, point) in enumerate(_distances_by_link(spheres, sphere_positions, objects[object_index, :])):
+        for link_position, (value, point, _) in enumerate(
+            _distances_by_link(spheres, sphere_positions, objects[object_index, :])
+        ):
             candidate = [value, ca.SX(link_position), ca.SX(object_index), *point]
             best = _select_vector(value < best[0], candidate, best) if best else candidate
     distance, link_position, object_index, *point = best
@@ -106,8 +117,8 @@ def outward_gradient_kernel() -> Kernel:
     )
 
 
-def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], numbers: SX) -> list[tuple[SX, Vector]]:
-    """Return for each link its smallest distance from an object and the center (3,) of the sphere that attains it."""
+def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], numbers: SX) -> list[tuple[SX, Vector, SX]]:
+    """Return for each link its smallest distance from an object, and the center (3,) and radius of the nearest sphere."""
     moving = spheres.link > BASE_LINK
     links, radii = spheres.link[moving], spheres.radius[moving]
     results = []
@@ -124,9 +135,9 @@ def _distances_by_link(spheres: SphereCover, sphere_positions: list[Vector], num
                 nearest = _select_vector(candidate[0] < nearest[0], candidate, nearest) if nearest else candidate
             value, *point = nearest
             root = ca.sqrt(_positive_part(value))
-            candidate = [ca.if_else(value > 0, root, value) - float(radius), *point]
+            candidate = [ca.if_else(value > 0, root, value) - float(radius), *point, ca.SX(float(radius))]
             best = _select_vector(candidate[0] < best[0], candidate, best) if best else candidate
-        results.append((best[0] - numbers[15] + numbers[OBJECT_PARAMETERS + link_position], best[1:]))
+        results.append((best[0] - numbers[15] + numbers[OBJECT_PARAMETERS + link_position], best[1:4], best[4]))
     return results
 
 
@@ -205,6 +216,11 @@ def _share_kernel(build: Callable[[ArmData, SphereCover], Kernel], arm: ArmData,
     return build(arm, spheres)
 
 
+@lru_cache(maxsize=256)
+def _select_link(spheres: SphereCover, link: int) -> SphereCover:
+    return SphereCover(*(getattr(spheres, name)[spheres.link == link] for name in ("link", "center", "radius", "part")))
+
+
 class FormulaObjects:
     """Objects with a distance formula, against the spheres of an arm.
 
@@ -235,6 +251,14 @@ class FormulaObjects:
     @cached_property
     def _nearest_kernel(self) -> Kernel:
         return _share_kernel(nearest_gradient_kernel, self.arm, self.spheres, default_backend())
+
+    @cached_property
+    def _link_kernels(self) -> list[tuple[Kernel, FloatArray]]:
+        """Kernels :func:`link_distance_kernel` of each moving link, and the inputs (F, 19) of all objects."""
+        numbers = np.array([solid.numbers() for solid in self.objects])
+        covers = [_select_link(self.spheres, int(link)) for link in _moving_links(self.spheres)]
+        kernels = [_share_kernel(link_distance_kernel, self.arm, cover, default_backend()) for cover in covers]
+        return [(kernel, np.column_stack([numbers, offset])) for kernel, offset in zip(kernels, self._offsets, strict=True)]
 
     @cached_property
     def _uninflated_blocks(self) -> FloatArray:
@@ -278,23 +302,22 @@ class FormulaObjects:
         """Return the least distance beyond the margins (N,), m."""
         return self._smallest_distance(q, self._inflated_blocks)
 
-    def smallest_by_link(self, q: FloatArray) -> FloatArray:
-        """Return the least distance (N, L) of every link, m; there must be objects."""
-        blocks = self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks, output_count=1 + self._links)
-        return np.asarray(reduce(np.minimum, blocks)[:, 1:])
-
     def link_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L, F) of the distance of every link from every object, m."""
         distances = np.empty((len(q), self._links, len(self.objects)))
         for block, outputs in enumerate(self._evaluate_blocks(self._distance_kernel, q, self._uninflated_blocks)):
             columns = distances[:, :, BLOCK_OBJECTS * block : BLOCK_OBJECTS * (block + 1)]
-            columns[...] = outputs[:, 1 + self._links :].reshape(len(q), self._links, BLOCK_OBJECTS)[:, :, : columns.shape[2]]
+            columns[...] = outputs[:, 1:].reshape(len(q), self._links, BLOCK_OBJECTS)[:, :, : columns.shape[2]]
         return distances
 
-    def distances_of_pairs(self, q: FloatArray, links: IndexArray, objects: IndexArray) -> FloatArray:
-        """Return a lower bound (N,) of the distance of one link (N,) from one object (N,) at each configuration, m."""
-        rows = self._distance_kernel.rows(q, self._uninflated_blocks[objects // BLOCK_OBJECTS])
-        return np.asarray(rows[np.arange(len(q)), 1 + self._links + links * BLOCK_OBJECTS + objects % BLOCK_OBJECTS])
+    def evaluate_pairs(self, q: FloatArray, links: IndexArray, objects: IndexArray, count: int) -> FloatArray:
+        """Return the first results (N, count) of :func:`link_distance_kernel` for one link and object (N,) at each q (N, n)."""
+        results = np.empty((len(q), count))
+        for link in np.flatnonzero(np.bincount(links, minlength=self._links)):
+            rows = np.flatnonzero(links == link)
+            kernel, numbers = self._link_kernels[link]
+            results[rows] = kernel.rows(q[rows], numbers[objects[rows]], first=count)
+        return results
 
     def single_row_kernels(self) -> list[SingleRowKernel]:
         """Return :func:`nearest_gradient_kernel` of each block for one configuration at a time: the first n of its inputs."""

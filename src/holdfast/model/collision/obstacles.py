@@ -213,12 +213,6 @@ class Obstacles:
             else np.minimum(smallest, self._gridded_objects.smallest_margin(q, np.zeros(len(self._grid_indices))))
         )
 
-    def smallest_by_link(self, q: FloatArray) -> FloatArray:
-        """Return the least distance (N, L) of every link, m."""
-        if self.has_only_formulas and len(self.links):
-            return self._formula_objects.smallest_by_link(q)
-        return np.asarray(self.pair_distances(q).reshape(len(q), len(self.links), len(self.cell)).min(axis=2))
-
     def pair_distances(self, q: FloatArray) -> FloatArray:
         """Return a lower bound (N, L K) of the distance of every pair, m; about 1e9 m if a pair may touch."""
         if self.has_only_formulas and len(self.links):
@@ -233,8 +227,20 @@ class Obstacles:
     def distances_of_pairs(self, q: FloatArray, pairs: IndexArray) -> FloatArray:
         """Return the entry (N,) of :meth:`pair_distances` for one pair (N,) at each configuration (N, n)."""
         if self.has_only_formulas:
-            return self._formula_objects.distances_of_pairs(q, *np.divmod(pairs, len(self.cell)))
+            return self._formula_objects.evaluate_pairs(q, *np.divmod(pairs, len(self.cell)), 1)[:, 0]
         return self.pair_distances(q)[np.arange(len(q)), pairs]
+
+    def find_contact_points(self, q: FloatArray, pairs: IndexArray) -> tuple[FloatArray, FloatArray]:
+        """Return the closest points of links and the unit vectors away from objects (N, 3), of one pair (N,) at each q."""
+        if self.has_only_formulas:
+            results = self._formula_objects.evaluate_pairs(q, *np.divmod(pairs, len(self.cell)), 8)
+            return results[:, 1:4] - results[:, 4:5] * results[:, 5:], results[:, 5:]
+        (points, outward), frames = np.empty((2, len(q), 3)), self.arm.frames(q)
+        for pair in np.unique(pairs):
+            rows = np.flatnonzero(pairs == pair)
+            link_poses = frames[rows, self.pairs[pair, 0] + 1]
+            points[rows], _, outward[rows] = self.find_closest_points(int(pair), link_poses)
+        return points, outward
 
     def are_poses_always_colliding(self, poses: FloatArray, margin: float) -> BoolArray:
         """Return (N,) True where every configuration that meets a tool pose (N, 4, 4) to 1e-6 violates ``margin``, m.

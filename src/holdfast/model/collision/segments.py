@@ -19,12 +19,12 @@ class LineSegment:
     Attributes:
         start: (3,) start point, m.
         span: (3,) vector to the end point, m.
-        square: ``span' span``, m^2, a number because links are rigid; 0 for a point.
+        square: ``span' span``, m^2, a number because links are rigid; 0 for a point. An expression is 1 for a point.
     """
 
     start: SX
     span: SX
-    square: float
+    square: float | SX
 
     def point_at(self, s: SX) -> SX:
         """Return the point (3,) at s."""
@@ -42,7 +42,7 @@ def closest_parameters(a: LineSegment, b: LineSegment) -> tuple[SX, SX]:
     """
     start_offset = a.start - b.start
     along_a, along_b, span_product = ca.dot(a.span, start_offset), ca.dot(b.span, start_offset), ca.dot(a.span, b.span)
-    if a.square == 0 or b.square == 0:
+    if isinstance(a.square, float) and isinstance(b.square, float) and 0 in (a.square, b.square):
         s = ca.SX(0) if a.square == 0 else _clip_to_unit(-along_a / a.square)
         return s, ca.SX(0) if b.square == 0 else _clip_to_unit(along_b / b.square)
     determinant = a.square * b.square - span_product * span_product

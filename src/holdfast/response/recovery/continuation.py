@@ -313,7 +313,7 @@ def _find_deviating_segments(search: PoseSearch, path: Path, fractions: FloatArr
     inner_fractions = fractions[:-1, None] + _INNER_FRACTIONS * np.diff(fractions)[:, None]
     path_errors = np.abs(
         search.solver.compute_errors(inner_configurations.reshape(-1, q.shape[1]), path.pose(inner_fractions.ravel()))
-    ).reshape(*inner_fractions.shape, -1)
+    ).reshape(*inner_fractions.shape, search.solver.rows.m)
     return np.flatnonzero((path_errors > tolerances).any(axis=(1, 2)))
 
 

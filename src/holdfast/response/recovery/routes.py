@@ -9,7 +9,7 @@ import numpy as np
 from holdfast.core.progress import track
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.solvers import joint_space
-from holdfast.response.recovery.compiled.edges import RouteSearch
+from holdfast.model.collision.compiled.edges import RouteSearch
 from holdfast.response.recovery.space import FreeSpace, JointMetric
 
 _BATCH_SAMPLES = 48  # samples per round

@@ -17,8 +17,8 @@ from holdfast.kinematics.tool_constraints.manifold import ConstraintManifold
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.compiled.edges import EdgeChecker, RouteSearch
 from holdfast.model.collision.exact.exact_clearance import ExactClearance
-from holdfast.response.recovery.compiled.edges import EdgeChecker, RouteSearch
 
 MetricName = Literal["travel", "time"]
 

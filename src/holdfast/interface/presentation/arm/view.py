@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -114,7 +115,8 @@ def scene(
         raise InputError(f"colors are {len(point_colors)} and points {len(point_array)}; give as many")
     size = stretched_length(arm)
     body_parts, mesh_note = build_body(arm, size, mesh_files) if meshes else (build_stick_parts(arm, size), "")
-    up = _up_direction(arm)
+    gravity_norm = float(np.linalg.norm(arm.gravity))
+    up = np.array([0.0, 0.0, 1.0]) if gravity_norm == 0 else -arm.gravity / gravity_norm + 0.0
     lost_directions = (
         []
         if moving or not lost
@@ -197,11 +199,7 @@ def build_view_section(
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
     """Build an HTML page with a view of the arm, with joint sliders if there is no motion. Options as in :func:`scene`."""
-    from markupsafe import Markup
-
-    arm_scene = scene(arm, q, **({"joints": True} | options))
-    caption = f"{arm.name} in three dimensions"
-    view: Markup = arm_scene.to_html("arm", caption)
+    view = scene(arm, q, **({"joints": True} | options)).to_html("arm", f"{arm.name} in three dimensions")
     return Html(viewer.build_view_page(view, arm.title))
 
 
@@ -285,22 +283,10 @@ def _flatten_pose(pose: FloatArray) -> list[float]:
     return round_to_seven_digits(pose[:3].reshape(-1))
 
 
-def _up_direction(arm: Arm) -> FloatArray:
-    gravity_norm = float(np.linalg.norm(arm.gravity))
-    return np.array([0.0, 0.0, 1.0]) if gravity_norm == 0 else -arm.gravity / gravity_norm + 0.0
-
-
 def _swept_corners(part: MeshPart, poses: FloatArray) -> FloatArray:
     """Return the corners (N, 3) of the boxes about a part at the poses (..., 4, 4) of its frame."""
     extremes = np.array([part.vertices.min(axis=0), part.vertices.max(axis=0)])
-    corners = np.array(
-        [
-            [extremes[x_end, 0], extremes[y_end, 1], extremes[z_end, 2]]
-            for x_end in (0, 1)
-            for y_end in (0, 1)
-            for z_end in (0, 1)
-        ]
-    )
+    corners = np.array(list(product(*extremes.T)))
     return np.asarray(corners @ poses[..., :3, :3].swapaxes(-1, -2) + poses[..., None, :3, 3]).reshape(-1, 3)
 
 
@@ -355,8 +341,7 @@ def _place_camera(
     """Return a camera that shows all points; it views a planar arm along the normal of its plane, other arms obliquely."""
     lower, upper = visible_points.min(axis=0), visible_points.max(axis=0)
     center = (lower + upper) / 2
-    right, upward, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
-    del upward
+    right, _, toward_viewer, _ = viewer.camera_axes({"azimuth": 0.0, "elevation": 0.0, "radius": 1.0}, up)
     azimuth, elevation = np.radians(-40.0), np.radians(18.0)
     normal = plane_normal(arm)
     if normal is not None:

@@ -112,7 +112,8 @@ def present(designs: Designs) -> Presentation:
             "Each arm with its tool at the centre of the region (dashed), or at the centre of its joint limits if it cannot "
             "reach it. Circles are revolute joints, squares prismatic joints, the orange diamond is the tool. Equal scales."
         )
-        figures["arms"] = FigureSpec(partial(_draw_arms, designs), "Before and after", caption, saved=False)
+        draw = partial(draw_before_and_after, space.arm, designs.arm(designs.best), index.task, designs.region, designs.seed)
+        figures["arms"] = FigureSpec(draw, "Before and after", caption, saved=False)
     exports = {ARM_FILE: partial(_write_arm, designs), "designs.csv": partial(_write_designs, designs)}
     return Presentation(
         f"Designs of {space.arm.name}",
@@ -247,10 +248,6 @@ def _draw_front(designs: Designs) -> report.Figure:
     return draw_pareto_front(designs.reach, designs.guaranteed, front, designs.best, baseline, label, designs.index.bound)
 
 
-def _draw_arms(designs: Designs) -> report.Figure:
-    return draw_before_and_after(designs.space.arm, designs.arm(designs.best), designs.index.task, designs.region, designs.seed)
-
-
 def _list_methods(designs: Designs) -> list[tuple[str, str]]:
     joints = list_alternatives(
         [
@@ -278,11 +275,7 @@ def _list_region_files(designs: Designs) -> dict[str, Any]:
     region = designs.region
     if not region.storable:
         return {}
-
-    def write_region(path: Path) -> None:
-        replace_file(path, format_region_file(region) + "\n")
-
-    files: dict[str, Any] = {"region.yaml": write_region}
+    files: dict[str, Any] = {"region.yaml": lambda path: replace_file(path, format_region_file(region) + "\n")}
     if (poses := region.listed) is not None:
         files["poses.csv"] = lambda path: replace_file(path, poses.to_csv())
     return files

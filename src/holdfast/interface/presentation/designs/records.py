@@ -110,14 +110,11 @@ def _tabulate_records(records: Iterable[DesignRecord], on_page: bool = True) -> 
     rows = []
     for record in records:
         kind, bound = record.data.kind, record.data.proven_bound
-        task_text, gap_text = kind.task or f"any of {kind.rows} rows", _format_gap(record)
+        task_text = kind.task or f"any of {kind.rows} rows"
+        gap_text = "0" if record.gap < _ZERO_GAP else format_percent(record.gap)
         bound_text = f"{bound.value:.7g}"
         rows.append([record.id, task_text, kind.joints, kind.failures, record.amount, bound_text, bound.by, gap_text])
     return TableSpec("", columns, rows, on_page=on_page)
-
-
-def _format_gap(record: DesignRecord) -> str:
-    return "0" if record.gap < _ZERO_GAP else format_percent(record.gap)
 
 
 def save(result: RecordBook | DesignRecord | RecordCheck, folder: Path, command: str = "") -> list[Path]:

@@ -42,7 +42,7 @@ def present(basins: Basins) -> Presentation:
     converged, points = basins.convergence, basins.points
     start_count = format_count(len(basins.end), "start")
     largest_miss = max(
-        (outcome for outcome in basins.shares if not _is_target(basins, outcome[0])),
+        (outcome for outcome in basins.shares if not outcome[0].startswith(("target", "solution"))),
         key=lambda outcome: outcome[1].value,
         default=None,
     )
@@ -102,10 +102,6 @@ def present(basins: Basins) -> Presentation:
         ],
         arm=points.law.arm,
     )
-
-
-def _is_target(basins: Basins, name: str) -> bool:
-    return name == "target" or name.startswith("solution")
 
 
 def _outcome_phrase(name: str) -> str:

@@ -25,9 +25,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
     """Return the kinematic run, and under "physics" the differences."""
     names = run.law.arm.joint_names
     physics = {
-        "outcome": run.outcome,
-        "reason": run.reason,
-        "agrees": run.agrees,
+        **{name: getattr(run, name) for name in ("outcome", "reason", "agrees")},
         "time_s": float(run.time[-1]),
         "error": float(run.error[-1]),
         "x_final": run.x[-1].tolist(),

@@ -49,23 +49,14 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         "verified": None
         if recovery.verified is None
         else {
-            "ok": recovery.verified.ok,
-            "faults": recovery.verified.faults,
-            "exact_by": recovery.verified.exact_by,
-            "goal_miss": recovery.verified.goal_miss,
-            "path_miss": recovery.verified.path_miss,
+            **{name: getattr(recovery.verified, name) for name in ("ok", "faults", "exact_by", "goal_miss", "path_miss")},
             "kept": [{"off": deviation, "turned": tilt} for deviation, tilt in recovery.verified.kept],
         },
         "proof": recovery.proof,
         "goal_configurations_found": recovery.found,
-        "starts": recovery.starts,
-        "metric": recovery.metric,
-        "unit": recovery.unit,
-        "length": recovery.length,
-        "lower_bound": recovery.lower_bound,
+        **{name: getattr(recovery, name) for name in ("starts", "metric", "unit", "length", "lower_bound")},
         "legs": [
-            {"name": leg.name, "first": leg.first, "last": leg.last, "length": leg.length, "lower_bound": leg.lower_bound}
-            for leg in recovery.legs
+            {name: getattr(leg, name) for name in ("name", "first", "last", "length", "lower_bound")} for leg in recovery.legs
         ],
         "joints": recovery.arm.joint_names,
         "waypoints": recovery.q,
@@ -86,10 +77,7 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         "rest_of_path": None
         if path_rest is None
         else {
-            "finished": path_rest.finished,
-            "furthest": path_rest.furthest,
-            "first_lost": path_rest.first_lost,
-            "deviation": path_rest.deviation,
+            **{name: getattr(path_rest, name) for name in ("finished", "furthest", "first_lost", "deviation")},
             "given_up": _relaxed_misses(path_rest.given_up),
         },
         "seed": recovery.seed,
@@ -298,7 +286,9 @@ def _draw_motion(recovery: Recovery) -> report.Figure:
         if has_motion:
             report.scenes.add_color_bar(figure, arm_scene, scale, list(panels), "fraction of the tool's path, %")
         report.legend_below(figure, panels[0], 5)
-        figure.suptitle(report.format_label(_compose_title(recovery), 110), fontsize=10, x=0.01, ha="left")
+        motion_text = f"{len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}" if has_motion else "no motion"
+        title = f"{arm.name}: {recovery.ending.phrase}, {motion_text}"
+        figure.suptitle(report.format_label(title, 110), fontsize=10, x=0.01, ha="left")
     return figure
 
 
@@ -322,12 +312,6 @@ def _draw_timing(recovery: Recovery) -> report.Figure:
         )
     ]
     return report.motions.motion_figure(panels, f"{recovery.arm.name}: {timed_motion.describe()}", "time, s")
-
-
-def _compose_title(recovery: Recovery) -> str:
-    if len(recovery.q) < 2:
-        return f"{recovery.arm.name}: {recovery.ending.phrase}, no motion"
-    return f"{recovery.arm.name}: {recovery.ending.phrase}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
 
 
 def _resample_path(waypoints: Any, count: int) -> Any:

@@ -93,10 +93,11 @@ def present(motion: SelfMotion) -> Presentation:
         if not arm.prismatic.all():
             turns = f"{motion.size / (2 * np.pi):.2f} of {np.count_nonzero(~arm.prismatic)}"
             facts.append(Fact("full revolutions of the joints on one curve", turns))
+    target = ", ".join(f"{coordinate:.4g}" for coordinate in motion.pose[:3, 3])
     return Presentation(
         f"All configurations of {arm.name} for one target",
         f"{answer}.",
-        about=f"Arm {arm.title}, task {motion.task.describe()}, target {_format_target(motion)}",
+        about=f"Arm {arm.title}, task {motion.task.describe()}, target ({target}) m",
         facts=facts,
         tables=_build_tables(motion),
         figures={"self-motion": _describe_figure(motion)},
@@ -112,10 +113,6 @@ def present(motion: SelfMotion) -> Presentation:
         ],
         arm=arm,
     )
-
-
-def _format_target(motion: SelfMotion) -> str:
-    return f"({', '.join(f'{coordinate:.4g}' for coordinate in motion.pose[:3, 3])}) m"
 
 
 def _classify_joints(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:

@@ -47,22 +47,20 @@ def _compare_arms(rankings: Sequence[ArmRanking]) -> str:
 
 def _describe_leader(standing: ArmRanking, best: ArmRanking | None) -> str:
     adverb = " most often" if len(standing.entries) > 1 else ""
-    text = (
-        f"After any failure considered, {name_leader(standing)}{adverb} keeps {indefinite_article(standing.question)} "
-        f"{standing.question}{format_unit(standing.unit)}: "
-    )
+    text = f"After any failure considered, {name_leader(standing)}{adverb} keeps {_name_threshold(standing)}: "
     text += f"at {format_interval(standing.ranked_entries[0][1])} of the poses"
     if best is not None:
         text += f"; in the best configuration of each pose, {name_leader(best)}: {format_interval(best.ranked_entries[0][1])}"
     return f"{text}."
 
 
+def _name_threshold(standing: ArmRanking) -> str:
+    return f"{indefinite_article(standing.question)} {standing.question}{format_unit(standing.unit)}"
+
+
 def _explain_absence(standing: ArmRanking, best: ArmRanking | None) -> str:
     """Explain why hardly any pose meets the threshold, with the best median and the most frequent worst failure."""
-    text = (
-        f"After any failure considered, hardly any pose keeps {indefinite_article(standing.question)} "
-        f"{standing.question}{format_unit(standing.unit)}: at most "
-    )
+    text = f"After any failure considered, hardly any pose keeps {_name_threshold(standing)}: at most "
     text += f"{format_interval(standing.ranked_entries[0][1])} of an arm's poses"
     if best is not None:
         text += f", in the best configuration of each pose {format_interval(best.ranked_entries[0][1])}"

@@ -170,14 +170,8 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
             samples.append(
                 ("At the best configurations", [(entry, entry.optimised) for entry in matching if entry.optimised is not None])
             )
-        extremes = [
-            value
-            for _, group in samples
-            for _, distribution in group
-            if distribution is not None
-            for value in (distribution.lowest, distribution.highest)
-            if np.isfinite(value)
-        ]
+        distributions = [distribution for _, group in samples for _, distribution in group if distribution is not None]
+        extremes = [value for shown in distributions for value in (shown.lowest, shown.highest) if np.isfinite(value)]
         if not extremes:
             continue
         index = matching[0].plan.index
@@ -205,10 +199,8 @@ def _build_distribution_blocks(assessed: Sequence[AssessedCell], limits: dict[Ke
             ylabel="fraction with a smaller value, F",
             log=is_logarithmic,
         )
-        poses = format_count_range(
-            [distribution.samples for _, group in samples for _, distribution in group if distribution is not None]
-        )
-        band = max(distribution.band() for _, group in samples for _, distribution in group if distribution is not None)
+        poses = format_count_range([distribution.samples for distribution in distributions])
+        band = max(distribution.band() for distribution in distributions)
         text = (
             f"Cumulative distributions of the worst-case {index.name} (task {key[1]}) over {poses} poses of each arm; the 95 % "
             f"band of each curve is {format_half_width(band)}. A pose without a configuration counts as "

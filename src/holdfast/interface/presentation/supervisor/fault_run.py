@@ -35,9 +35,7 @@ def to_dict(run: FaultRun) -> dict[str, Any]:
     """Return the faults, the alarms, the actions, and the outcome."""
     return {
         **run.arm.entry(),
-        "outcome": run.outcome,
-        "ok": run.ok,
-        "react": run.react,
+        **{name: getattr(run, name) for name in ("outcome", "ok", "react")},
         "time_s": run.time[-1],
         "miss_m": run.position_error[-1],
         "turn_rad": run.orientation_error[-1] if run.law.task.angular else None,

@@ -35,7 +35,8 @@ def bank_figure(
         _label_tasks(axes, bank, special_tasks[is_drawable], len(chosen_tasks) + 1 + np.flatnonzero(is_drawable), special=True)
         missing_numbers = [str(len(chosen_tasks) + 1 + index) for index in np.flatnonzero(~is_drawable)]
         incomplete_count = int((~bank.is_completed()).sum())
-        title = f"{len(bank)} tasks under computer control in {len(cells.occupied_cells)} of {_count_cells(cells)} cells"
+        cell_count = (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)
+        title = f"{len(bank)} tasks under computer control in {len(cells.occupied_cells)} of {cell_count} cells"
         if incomplete_count:
             title += f"; {incomplete_count} not completed in every scenario are not shown"
         if missing_numbers:
@@ -100,7 +101,3 @@ def _label_tasks(axes: report.Axes, bank: TaskBank, rows: IndexArray, numbers: i
             path_effects=[withStroke(linewidth=2.2, foreground="white")],
             zorder=5,
         )
-
-
-def _count_cells(cells: Binning) -> int:
-    return (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)

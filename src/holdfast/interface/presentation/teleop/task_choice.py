@@ -79,6 +79,7 @@ def present(choice: TaskChoice) -> Presentation:
         for summary in _summarize_scenarios(bank)
     ]
     rows = [list(summary.values()) for summary in summaries]
+    draw_bank = partial(bank_figure, bank, choice.cells, choice.chosen, special=choice.special_tasks)
     return Presentation(
         f"Tasks chosen from a bank for {choice.arm.name}",
         f"With the failed arm, the failure-tolerant inverse is better (CPM4/CPM3 below 1) in "
@@ -86,13 +87,9 @@ def present(choice: TaskChoice) -> Presentation:
         about=f"Arm {choice.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios under computer control",
         lines=lines,
         tables=[TableSpec("Medians over the completed tasks", columns, rows)],
-        figures={"bank": FigureSpec(partial(_draw_bank, choice), "The bank and the chosen tasks")},
+        figures={"bank": FigureSpec(draw_bank, "The bank and the chosen tasks")},
         arm=choice.arm,
     )
-
-
-def _draw_bank(choice: TaskChoice) -> report.Figure:
-    return bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.special_tasks)
 
 
 def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:

@@ -29,20 +29,14 @@ def blocks(facts: AssessmentFacts) -> list[Block]:
             elif joint in weaknesses:
                 cell = Markup('<span class="weak">≤ {}</span>').format(format_percent(weaknesses[joint].manipulability_left))
             cells.append(cell)
-        verdict = (
-            "never possible"
-            if structure.never
-            else "not redundant"
-            if structure.redundancy <= 0
-            else "single point of failure"
-            if structure.fatal
-            else "nearly one"
-            if structure.nearly
-            else "weak joint"
-            if structure.weak
-            else "none"
-        )
-        table_rows.append([*cells, verdict])
+        verdicts = {
+            "never possible": structure.never,
+            "not redundant": structure.redundancy <= 0,
+            "single point of failure": structure.fatal,
+            "nearly one": structure.nearly,
+            "weak joint": structure.weak,
+        }
+        table_rows.append([*cells, next((verdict for verdict, applies in verdicts.items() if applies), "none")])
     header = ["Task", "Redundancy", *[str(joint + 1) for joint in range(len(joint_names))], "Single point of failure"]
     joints = "; ".join(f"{joint + 1} {name}" for joint, name in enumerate(joint_names))
     return [

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from ctypes import Structure, addressof, c_int64, c_void_p
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike
 
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.model.arm.configurations import align_joint_frames
+from holdfast.model.arm.model import Arm
 from holdfast.model.cell.solids import PrimitiveSolid
+from holdfast.model.collision.capsules import Capsules
 from holdfast.model.collision.clearance import Clearance
 from holdfast.model.collision.object_kernels import FAR_AWAY_M
+from holdfast.model.collision.sphere_cover import make_sphere_cover
 
 # As in route_search.cpp.
 MAX_JOINTS = 16
@@ -70,58 +74,71 @@ class SceneTables(NamedTuple):
             overlaps: (P,) length by which each pair may be closer than required, m.
         """
         arm, obstacles = clearance.arm, clearance.obstacles
-        frames, maps = align_joint_frames(arm)
-        by_link = sorted(range(len(clearance.capsules)), key=lambda index: clearance.capsules.parts[index].link)
-        positions = np.argsort(np.array(by_link, dtype=np.int64))
-        capsules = [clearance.capsules.parts[index] for index in by_link]
-        capsule_links = np.array([part.link + 1 for part in capsules], dtype=np.int64)
-        ends = np.array([[part.start, part.end] for part in capsules]).reshape(-1, 2, 3)
-        ends = _to_axis_frames(ends, capsule_links, maps)
-        radii = np.array([part.radius for part in capsules])
-        spans = ends[:, 1] - ends[:, 0]
-        checked_pairs = positions[np.array(clearance.pairs, dtype=np.int64).reshape(-1, 2)]
+        bodies = _collect_bodies(arm, clearance.capsules, obstacles is not None)
+        checked_pairs = bodies.positions[np.array(clearance.pairs, dtype=np.int64).reshape(-1, 2)]
         own_values = np.column_stack([lipschitz_bounds, overlaps])[: len(clearance.pairs)]
-        link_pairs, pairs, pair_values = _group_pairs(checked_pairs, capsule_links, own_values)
-        first_sphere, spheres = np.zeros(arm.n + 2, dtype=np.int64), np.zeros((0, 4))
-        enclosing = np.tile([0.0, 0.0, 0.0, _EMPTY_RADIUS_M], (arm.n + 1, 1))
+        link_pairs, pairs, pair_values = _group_pairs(checked_pairs, bodies.links, own_values)
         objects, allowances, link_bounds = np.zeros((0, 18)), np.zeros((arm.n + 1, 0)), np.zeros((arm.n + 1, arm.n))
         if obstacles is not None:
-            cover = obstacles.spheres
-            moving = cover.link >= 0
-            links, sphere_radii = cover.link[moving] + 1, cover.radius[moving]
-            centers = _to_axis_frames(cover.center[moving][:, None], links, maps)[:, 0]
-            spheres = np.column_stack([centers, sphere_radii])
-            first_sphere = np.searchsorted(links, np.arange(arm.n + 2))
-            for link in np.unique(links):
-                enclosing[link] = _enclose_spheres(spheres[links == link])
             objects = np.array([solid.numbers() for solid in obstacles.cell if isinstance(solid, PrimitiveSolid)])
             own_margins = np.array([obstacles.cell.margin_of(solid) for solid in obstacles.cell])
             required = np.tile(own_margins + margin, (arm.n + 1, 1))
             required[obstacles.links + 1] -= overlaps[len(clearance.pairs) :].reshape(len(obstacles.links), -1)
             allowances = np.where(obstacles.may_touch, -FAR_AWAY_M, required)
             link_bounds[obstacles.links + 1] = lipschitz_bounds[len(clearance.pairs) :: len(obstacles.cell)]
-        part_enclosing = np.zeros((arm.n + 1, 4))
-        for link in np.unique(capsule_links):
-            is_on_link = capsule_links == link
-            part_enclosing[link] = _enclose_spheres(
-                np.column_stack([ends[is_on_link].reshape(-1, 3), np.repeat(radii[is_on_link], 2)])
-            )
         return cls(
-            joints=np.column_stack([frames[:, :3, :3].reshape(-1, 9), frames[:, :3, 3], arm.prismatic]),
-            first_sphere=first_sphere,
-            spheres=spheres,
-            enclosing=enclosing,
+            **bodies.tables,
             objects=objects.reshape(-1, 18),
             allowances=allowances,
-            parts=np.column_stack([ends.mean(axis=1), spans, radii, radii + np.linalg.norm(spans, axis=1) / 2]).reshape(-1, 8),
-            first_part=np.searchsorted(capsule_links, np.arange(arm.n + 2)),
-            part_enclosing=part_enclosing,
             link_pairs=link_pairs,
             pairs=pairs,
             link_bounds=link_bounds,
             pair_bounds=pair_values[:, :-1],
             pair_allowances=margin - pair_values[:, -1],
         )
+
+
+class _Bodies(NamedTuple):
+    """Links of an arm, the same for all its cells.
+
+    Attributes:
+        tables: Fields of :class:`SceneTables`.
+        positions: (C,) position of each capsule of the collision model in ``parts``.
+        links: (C,) link of each of ``parts``.
+    """
+
+    tables: dict[str, Any]
+    positions: IndexArray
+    links: IndexArray
+
+
+@lru_cache(maxsize=16)
+def _collect_bodies(arm: Arm, capsules: Capsules, has_objects: bool) -> _Bodies:
+    """Collect the joints, capsules, and, if there are objects, the spheres of an arm."""
+    frames, maps = align_joint_frames(arm)
+    by_link = sorted(range(len(capsules)), key=lambda index: capsules.parts[index].link)
+    parts = [capsules.parts[index] for index in by_link]
+    part_links = np.array([part.link + 1 for part in parts], dtype=np.int64)
+    ends = _to_axis_frames(np.array([[part.start, part.end] for part in parts]).reshape(-1, 2, 3), part_links, maps)
+    radii, spans = np.array([part.radius for part in parts]), ends[:, 1] - ends[:, 0]
+    end_spheres = np.concatenate([ends.reshape(-1, 3), np.repeat(radii, 2)[:, None]], axis=1)
+    spheres, links = np.zeros((0, 4)), np.zeros(0, dtype=np.int64)
+    if has_objects:
+        cover = make_sphere_cover(capsules)
+        moving = cover.link >= 0
+        links = cover.link[moving] + 1
+        centers = _to_axis_frames(cover.center[moving][:, None], links, maps)[:, 0]
+        spheres = np.column_stack([centers, cover.radius[moving]])
+    tables = {
+        "joints": np.column_stack([frames[:, :3, :3].reshape(-1, 9), frames[:, :3, 3], arm.prismatic]),
+        "first_sphere": np.searchsorted(links, np.arange(arm.n + 2)),
+        "spheres": spheres,
+        "enclosing": _enclose_by_link(spheres, links, arm.n),
+        "parts": np.column_stack([ends.mean(axis=1), spans, radii, radii + np.linalg.norm(spans, axis=1) / 2]).reshape(-1, 8),
+        "first_part": np.searchsorted(part_links, np.arange(arm.n + 2)),
+        "part_enclosing": _enclose_by_link(end_spheres, np.repeat(part_links, 2), arm.n),
+    }
+    return _Bodies(tables, np.argsort(np.array(by_link, dtype=np.int64)), part_links)
 
 
 class _SceneAddresses(Structure):
@@ -150,11 +167,14 @@ def _to_axis_frames(points: FloatArray, links: IndexArray, maps: FloatArray) -> 
     return np.asarray(np.einsum("nij,nkj->nki", maps[links, :3, :3], points) + maps[links, None, :3, 3])
 
 
-def _enclose_spheres(spheres: FloatArray) -> FloatArray:
-    """Return a sphere (4,) around spheres (N, 4): its center is the middle of their bounding box."""
-    centers, radii = spheres[:, :3], spheres[:, 3]
-    middle = ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0)) / 2
-    return np.append(middle, (np.linalg.norm(centers - middle, axis=1) + radii).max())
+def _enclose_by_link(spheres: FloatArray, links: IndexArray, n: int) -> FloatArray:
+    """Return a sphere (n + 1, 4) around the spheres (N, 4) of each link: its center is the middle of their bounding box."""
+    enclosing = np.tile([0.0, 0.0, 0.0, _EMPTY_RADIUS_M], (n + 1, 1))
+    for link in np.unique(links):
+        centers, radii = spheres[links == link, :3], spheres[links == link, 3]
+        middle = ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0)) / 2
+        enclosing[link] = np.append(middle, (np.linalg.norm(centers - middle, axis=1) + radii).max())
+    return enclosing
 
 
 def _group_pairs(pairs: IndexArray, links: IndexArray, values: FloatArray) -> tuple[IndexArray, IndexArray, FloatArray]:

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.collision.clearance import Clearance
-from holdfast.response.recovery.compiled.library import load_library
-from holdfast.response.recovery.compiled.scene import MAX_JOINTS, MAX_PARTS, CompiledScene, SceneTables
+from holdfast.model.collision.compiled.library import load_library
+from holdfast.model.collision.compiled.scene import MAX_JOINTS, MAX_PARTS, CompiledScene, SceneTables
 
 CHECK_SPACING_M = 0.05  # largest possible motion between the configurations that are checked before a proof
 _MAX_WAYPOINTS = 256  # as in route_search.cpp

@@ -31,6 +31,7 @@ class RouteSearchLibrary:
         self.search_route = self._bind(
             "search_route", c_int64, c_void_p, c_void_p, c_void_p, c_void_p, c_int64, c_uint64, c_void_p, c_void_p
         )
+        self.check_spans = self._bind("check_spans", c_int64, c_void_p, c_void_p, c_int64, c_void_p, c_int64, c_void_p)
         self.shorten = self._bind("shorten", c_int64, c_void_p, c_void_p, c_void_p, c_int64, c_uint64)
 
     def _bind(self, name: str, result: Any, *arguments: Any) -> Any:

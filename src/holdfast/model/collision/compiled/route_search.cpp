@@ -1,11 +1,12 @@
-// Collision checks and proofs of straight edges in joint space, and the search for a route made of them.
+// Collision checks and proofs of straight edges in joint space, the search for a route made of them, and proofs of spans of motions.
 //
-// tools/native.py compiles this file to route_search.ll, which LLVM translates for the processor when a route is first searched.
+// tools/native.py compiles this file to route_search.ll, which LLVM translates for the processor on first use.
 // There is no standard library, no allocation, and no state. One function serves every arm, cell, and set of locked joints,
 // because all of them are tables (see scene.py, which contains the same structures).
 //
 // Edges are checked at many configurations at once: a value of type Lanes<T>::V holds one number of each configuration. Checks
-// use single precision. Proofs use double precision, and nothing counts as valid before its proof.
+// use single precision. Proofs of edges use double precision, and no edge counts as valid before its proof. Proofs of spans use
+// single precision and an allowance for its rounding.
 //
 // Sources: RRT-Connect (Kuffner and LaValle 2000); configurations of an edge in interleaved order and many at once (Thomason,
 // Kingston and Kavraki 2024); segments (Ericson 2005, section 5.1.9); splitmix64 (Steele, Lea and Flood 2014).
@@ -19,6 +20,7 @@ constexpr Int MAX_LINK_PAIRS = MAX_LINKS * (MAX_LINKS - 1) / 2;
 constexpr Int MAX_PARTS = 192;  // capsules of an arm
 constexpr Int MAX_POINTS = 256;  // waypoints of a route
 constexpr Int MAX_PIECES = 4096;  // pieces of an edge that wait for their proof
+constexpr Int MAX_COMPARED = 64;  // possible contacts that a new one may continue
 constexpr float UNCHECKED_M = -1e8f;  // allowance of a link and an object that may touch
 
 template <class T> struct Lanes;
@@ -142,18 +144,17 @@ template <class T> struct Frame {
   }
 };
 
-// Frames of all links, the fixed base in the world first, at the configurations start + fraction * difference.
-template <class T>
-INLINE void compute_frames(const Scene<T> &scene, const T *start, const T *difference, typename Lanes<T>::V fraction, Frame<T> *frames) {
+// Frames of all links, the fixed base in the world first, at configurations.
+template <class T> INLINE void compute_frames(const Scene<T> &scene, const typename Lanes<T>::V *configurations, Frame<T> *frames) {
   typedef typename Lanes<T>::V V;
-  const V zero = fraction * T(0);
+  const V zero = {};
   for (Int k = 0; k < 9; k++) frames[0].r[k] = zero + T(k % 4 == 0);
   for (Int k = 0; k < 3; k++) frames[0].p[k] = zero;
   for (Int j = 0; j < scene.joint_count; j++) {
     const Joint<T> &joint = scene.joints[j];
     const Frame<T> &before = frames[j];
     Frame<T> &after = frames[j + 1];
-    V q = start[j] + fraction * difference[j];
+    const V q = configurations[j];
     Point<V> p = before.transform(joint.position[0], joint.position[1], joint.position[2]);
     V r[9];
     for (Int row = 0; row < 3; row++)
@@ -249,33 +250,37 @@ template <class T> static T find_largest_motion(const Scene<T> &scene, const Mot
   return largest;
 }
 
-// Configurations in which a link may be closer to an object, or to another link, than required within ``half`` of the edge on
-// either side. With ``stop_at_first`` the result only tells any from none.
-template <class T, bool stop_at_first>
-INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame<T> *frames, typename Lanes<T>::V half,
-                                              const Motion<T> &motion) {
+// Configurations in which a link may be closer to an object, or to another link, than required, after motions of so many m.
+// With ``stop_at_first`` the result only tells any from none. ``report`` is called with every pair that is too close, links and
+// objects first, then capsules; and with its links.
+template <class T, bool stop_at_first, bool reports_all, class Report>
+INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame<T> *frames, const typename Lanes<T>::V *link_motions,
+                                              const typename Lanes<T>::V *pair_motions, Report report) {
   typedef typename Lanes<T>::V V;
-  const V none = half * T(0);
+  const V none = {};
   typename Lanes<T>::Mask too_close = none < none;
   for (Int link = 1; link <= scene.joint_count; link++) {
     const Sphere<T> &around = scene.enclosing[link];
     if (around.radius < 0) continue;
     const Frame<T> &frame = frames[link];
     Point<V> center = frame.transform(around.x, around.y, around.z);
-    V needed = half * motion.link[link] + motion.link_deviation[link];
+    const V needed = link_motions[link];
     for (Int k = 0; k < scene.object_count; k++) {
       const Object<T> &object = scene.objects[k];
       const T allowance = scene.allowances[link * scene.object_count + k] + object.rounding;
       if (allowance < UNCHECKED_M) continue;
       V reach = larger(needed + (allowance + around.radius), none);
       if (!any(squared_distance(object, center) < reach * reach)) continue;
+      typename Lanes<T>::Mask near = none < none;
       for (Int sphere = scene.first_sphere[link]; sphere < scene.first_sphere[link + 1]; sphere++) {
         const Sphere<T> &ball = scene.spheres[sphere];
         V limit = larger(needed + (allowance + ball.radius), none);
-        too_close |= squared_distance(object, frame.transform(ball.x, ball.y, ball.z)) < limit * limit;
-        if (stop_at_first && any(too_close)) return too_close;
+        near |= squared_distance(object, frame.transform(ball.x, ball.y, ball.z)) < limit * limit;
+        if (stop_at_first && any(near)) return near;
       }
-      if (all(too_close)) return too_close;
+      too_close |= near;
+      if (!reports_all && all(too_close)) return too_close;
+      report((link - 1) * scene.object_count + k, near, 0, link);
     }
   }
   Point<V> centers[MAX_PARTS];  // of the parts of the links in ``placed``
@@ -284,7 +289,7 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
     const LinkPair &links = scene.link_pairs[k];
     const Sphere<T> &a = scene.part_enclosing[links.first_link], &b = scene.part_enclosing[links.second_link];
     const Frame<T> &f = frames[links.first_link], &g = frames[links.second_link];
-    const V needed = half * motion.pair[k] + (motion.pair_deviation[k] + scene.pair_allowances[k]);
+    const V needed = pair_motions[k] + scene.pair_allowances[k];
     const Point<V> second_center = g.transform(b.x, b.y, b.z);
     V reach = larger(needed + (a.radius + b.radius), none);
     if (!any(squared_gap(f.transform(a.x, a.y, a.z), second_center) < reach * reach)) continue;
@@ -311,14 +316,30 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const Frame
       reach = larger(needed + (first.reach + second.reach), none);
       if (!any(squared_gap(centers[parts.first], centers[parts.second]) < reach * reach)) continue;
       const V limit = larger(needed + (first.radius + second.radius), none);
-      too_close |= squared_distance(f, first, centers[parts.first], g, second, centers[parts.second]) < limit * limit;
-      if (stop_at_first && any(too_close)) return too_close;
+      const auto near = squared_distance(f, first, centers[parts.first], g, second, centers[parts.second]) < limit * limit;
+      too_close |= near;
+      if (stop_at_first && any(near)) return near;
+      report(scene.joint_count * scene.object_count + pair, near, links.first_link, links.second_link);
     }
   }
   return too_close;
 }
 
 // ---- edges ------------------------------------------------------------------------------------------------------------------
+
+// The same at the configurations start + fraction * difference, within ``half`` of the edge on either side.
+template <class T, bool stop_at_first>
+INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const T *start, const T *difference, const Motion<T> &motion,
+                                              typename Lanes<T>::V fraction, typename Lanes<T>::V half) {
+  typedef typename Lanes<T>::V V;
+  V q[MAX_JOINTS], link_motions[MAX_LINKS], pair_motions[MAX_LINK_PAIRS];
+  Frame<T> frames[MAX_LINKS];
+  for (Int j = 0; j < scene.joint_count; j++) q[j] = start[j] + fraction * difference[j];
+  compute_frames(scene, q, frames);
+  for (Int link = 1; link <= scene.joint_count; link++) link_motions[link] = half * motion.link[link] + motion.link_deviation[link];
+  for (Int k = 0; k < scene.link_pair_count; k++) pair_motions[k] = half * motion.pair[k] + motion.pair_deviation[k];
+  return find_too_close<T, stop_at_first, false>(scene, frames, link_motions, pair_motions, [](Int, typename Lanes<T>::Mask, Int, Int) {});
+}
 
 // Whether every configuration that is checked along an edge has ``room`` in addition to what is required, in m; below 0 the
 // spheres may overlap by so much. The start is not checked. At most ``spacing``, in m, moves any sphere between two checked configurations.
@@ -332,11 +353,8 @@ static bool is_edge_free(const Scene<float> &scene, const float *start, const fl
   const float step = 1.0f / float(blocks * Lanes<float>::COUNT);
   V lane;
   for (Int k = 0; k < Lanes<float>::COUNT; k++) lane[k] = float(k * blocks + 1);
-  Frame<float> frames[MAX_LINKS];
-  for (Int block = 0; block < blocks; block++) {
-    compute_frames(scene, start, difference, (lane + float(block)) * step, frames);
-    if (any(find_too_close<float, true>(scene, frames, lane * 0.0f, motion))) return false;
-  }
+  for (Int block = 0; block < blocks; block++)
+    if (any(find_too_close<float, true>(scene, start, difference, motion, (lane + float(block)) * step, V{}))) return false;
   return true;
 }
 
@@ -353,7 +371,6 @@ static bool prove_edge(const Scene<double> &scene, const double *start, const do
   struct Piece { double middle, half; } waiting[MAX_PIECES];
   Int count = 0;
   for (Int k = 0; k < COUNT; k++) waiting[count++] = {(2 * double(k) + 1) / (2 * COUNT), 1.0 / (2 * COUNT)};
-  Frame<double> frames[MAX_LINKS];
   while (count) {
     Piece pieces[COUNT];
     V middle, half;
@@ -363,8 +380,7 @@ static bool prove_edge(const Scene<double> &scene, const double *start, const do
       middle[k] = pieces[k].middle, half[k] = pieces[k].half;
     }
     count -= used;
-    compute_frames(scene, start, difference, middle, frames);
-    Lanes<double>::Mask open = find_too_close<double, false>(scene, frames, half, motion);
+    Lanes<double>::Mask open = find_too_close<double, false>(scene, start, difference, motion, middle, half);
     for (Int k = 0; k < used; k++) {
       if (!open[k]) continue;
       const double quarter = pieces[k].half / 2;
@@ -374,6 +390,91 @@ static bool prove_edge(const Scene<double> &scene, const double *start, const do
     }
   }
   return true;
+}
+
+// ---- spans of motions -------------------------------------------------------------------------------------------------------
+
+struct SpanPiece { Int row; float begin, end; };  // from and to fractions of the duration of a span; equal for an instant
+struct Contact { SpanPiece piece; Int pair; double rate; };  // that is possible; the distance changes at most at this rate, m
+
+// States at both ends of spans by columns: joint values, then rates, and the time at ``time_row``. In between, joints follow the
+// cubic polynomials through both.
+struct Spans {
+  const double *before, *after;
+  Int stride, time_row;
+  float allowance, finest;  // for single precision, m; shortest duration of a piece that is halved, s
+};
+
+typedef double Wide __attribute__((vector_size(128)));  // one number of each of 16 spans
+typedef double StoredWide __attribute__((vector_size(128), aligned(8)));
+
+// Pieces in which a link may touch an object or another link, and instants at which it is in contact for certain. Pieces of
+// consecutive rows are read at once. ``fine`` becomes the pieces that are not halved, and ``report`` is that of find_too_close.
+template <class Report>
+INLINE Bits find_open(const Scene<float> &scene, const Spans &spans, const SpanPiece *pieces, bool are_consecutive, bool is_full,
+                      Bits &fine, Report report) {
+  typedef Lanes<float>::V V;
+  const Int n = scene.joint_count;
+  V q[MAX_JOINTS], deviation[MAX_JOINTS], speed[MAX_JOINTS], link_motions[MAX_LINKS], pair_motions[MAX_LINK_PAIRS];
+  V start[MAX_JOINTS], first[MAX_JOINTS], chord[MAX_JOINTS], last[MAX_JOINTS];
+  float begins[Lanes<float>::COUNT], ends[Lanes<float>::COUNT];  // in memory, because it takes long to set lanes one by one
+  for (Int k = 0; k < Lanes<float>::COUNT; k++) begins[k] = pieces[k].begin, ends[k] = pieces[k].end;
+  const V begin = *(const StoredRow *)begins, end = *(const StoredRow *)ends, width = end - begin;
+  const auto read = [&](const double *columns, Int number) {
+    const double *values = columns + number * spans.stride;
+    if (are_consecutive) return Wide(*(const StoredWide *)(values + pieces[0].row));
+    double numbers[Lanes<float>::COUNT];
+    for (Int k = 0; k < Lanes<float>::COUNT; k++) numbers[k] = values[pieces[k].row];
+    return Wide(*(const StoredWide *)numbers);
+  };
+  const Wide duration = read(spans.after, spans.time_row) - read(spans.before, spans.time_row);
+  fine = is_full ? ~Bits(0) : bits_of(__builtin_convertvector(duration, V) * width <= spans.finest);
+  for (Int j = 0; j < n; j++) {
+    const Wide angle = read(spans.before, j), turns = (angle * 0.159154943091895336 + 6755399441055744.0) - 6755399441055744.0;
+    start[j] = __builtin_convertvector(scene.joints[j].is_prismatic != 0 ? angle : angle - turns * 6.28318530717958648, V);
+    chord[j] = __builtin_convertvector(read(spans.after, j) - angle, V);
+    first[j] = __builtin_convertvector(read(spans.before, n + j) * duration, V);
+    last[j] = __builtin_convertvector(read(spans.after, n + j) * duration, V);
+  }
+  for (Int j = 0; j < n; j++) {
+    const V second = 3.0f * chord[j] - 2.0f * first[j] - last[j], third = first[j] + last[j] - 2.0f * chord[j];
+    // Bernstein coefficients of the piece and of its derivative, between which the values are.
+    const V a = begin * (first[j] + begin * (second + begin * third)), d = end * (first[j] + end * (second + end * third));
+    const V u = first[j] + begin * (2.0f * second + begin * 3.0f * third), w = first[j] + end * (2.0f * second + end * 3.0f * third);
+    const V v = u + width * (second + begin * 3.0f * third), b = a + width / 3.0f * u, c = d - width / 3.0f * w;
+    speed[j] = larger(larger(__builtin_elementwise_abs(u), __builtin_elementwise_abs(v)), __builtin_elementwise_abs(w));
+    const V low = smaller(smaller(a, b), smaller(c, d)), high = larger(larger(a, b), larger(c, d));
+    q[j] = start[j] + 0.5f * (low + high);
+    deviation[j] = 0.5f * (high - low);
+  }
+  Frame<float> frames[MAX_LINKS];
+  compute_frames(scene, q, frames);
+  // A point of a link moves by at most m = sum_j (lever_j + m) deviation_j, because its distance from an axis changes by at most m.
+  V turn = {}, moved[MAX_LINKS][MAX_JOINTS + 1], rates[MAX_LINKS][MAX_JOINTS + 1];  // by the joints from each one on
+  V turn_rate = {};
+  for (Int j = 0; j < n; j++)
+    if (scene.joints[j].is_prismatic == 0) turn += deviation[j], turn_rate += speed[j];
+  const V needed = width == 0.0f ? V{} - spans.allowance : V{} + spans.allowance, factor = 1.0f / larger(1.0f - turn, V{} + 1e-6f);
+  for (Int link = 1; link <= n; link++) {
+    const Sphere<float> &around = scene.part_enclosing[link];
+    const Point<V> center = frames[link].transform(around.x, around.y, around.z);
+    moved[link][link] = rates[link][link] = V{};
+    for (Int j = link - 1; j >= 0; j--) {
+      const Frame<float> &axis = frames[j + 1];
+      const Point<V> arm = {center.x - axis.p[0], center.y - axis.p[1], center.z - axis.p[2]};
+      const V along = axis.r[2] * arm.x + axis.r[5] * arm.y + axis.r[8] * arm.z;
+      V lever = square_root(larger(dot(arm, arm) - along * along, V{})) + around.radius;
+      if (scene.joints[j].is_prismatic != 0) lever = V{} + 1.0f;
+      moved[link][j] = moved[link][j + 1] + factor * deviation[j] * lever;
+      rates[link][j] = rates[link][j + 1] + speed[j] * lever;
+    }
+    link_motions[link] = needed + moved[link][0];
+  }
+  for (Int k = 0; k < scene.link_pair_count; k++)
+    pair_motions[k] = needed + moved[scene.link_pairs[k].second_link][scene.link_pairs[k].first_link];
+  return bits_of(find_too_close<float, false, true>(scene, frames, link_motions, pair_motions, [&](Int pair, auto near, Int first, Int second) {
+    if (bits_of(near) & fine) report(pair, bits_of(near) & fine, rates[second][first] + moved[second][first] * turn_rate);
+  }));
 }
 
 // ---- routes -----------------------------------------------------------------------------------------------------------------
@@ -546,6 +647,58 @@ void prove_edges(const Scene<double> *scene, const double *starts, const double 
   const Int n = scene->joint_count;
   for (Int k = 0; k < edges; k++)
     proved[k] = prove_edge(*scene, starts + k * n, differences + k * n, deviations + k * n, resolution);
+}
+
+// Add a possible contact to one that it continues, or else to the end.
+INLINE void add_contact(Contact *contacts, Int &found, Int capacity, const Contact &contact) {
+  for (Int k = found - 1; found <= capacity && k >= 0 && k >= found - MAX_COMPARED; k--) {
+    Contact &other = contacts[k];
+    if (other.pair != contact.pair || other.piece.row != contact.piece.row || other.piece.end != contact.piece.begin) continue;
+    other.piece.end = contact.piece.end;
+    if (contact.rate > other.rate) other.rate = contact.rate;
+    return;
+  }
+  if (found++ < capacity) contacts[found - 1] = contact;
+}
+
+// Write the pieces of spans in which a pair may touch, and return their number, which may exceed the ``capacity``. Write for each
+// span whether an instant is found at which it is in contact for certain. Later pieces are not searched.
+Int check_spans(const Scene<float> *scene, const Spans *spans, Int rows, Contact *contacts, Int capacity, char *touching) {
+  constexpr Int COUNT = Lanes<float>::COUNT;
+  SpanPiece waiting[MAX_PIECES];
+  Int count = 0, next = 0, found = 0;
+  for (Int row = 0; row < rows; row++) touching[row] = 0;
+  while (count || next < rows) {
+    SpanPiece pieces[COUNT];
+    const bool are_consecutive = count < COUNT && next + COUNT <= rows;
+    Int used = 0;
+    while (used < COUNT && (count || next < rows)) {
+      pieces[used] = are_consecutive || !count ? SpanPiece{next++, 0, 1} : waiting[--count];
+      used += !touching[pieces[used].row];
+    }
+    if (!used) break;
+    for (Int k = used; k < COUNT; k++) pieces[k] = pieces[0];
+    const Bits all_used = (Bits(1) << used) - 1;
+    Bits fine;
+    Bits open = all_used & find_open(*scene, *spans, pieces, are_consecutive, count + 2 * COUNT > MAX_PIECES, fine, [&](Int pair, Bits lanes, Lanes<float>::V rate) {
+      for (lanes &= all_used; lanes; lanes &= lanes - 1) {
+        const Int k = __builtin_ctzll(lanes);
+        if (pieces[k].begin != pieces[k].end) add_contact(contacts, found, capacity, {pieces[k], pair, 1.001 * rate[k]});
+      }
+    });
+    for (; open; open &= ~(Bits(1) << (63 - __builtin_clzll(open)))) {  // the first pieces are searched next
+      const Int k = 63 - __builtin_clzll(open);
+      const auto [row, begin, end] = pieces[k];
+      const float middle = 0.5f * (begin + end);
+      if (begin == end)
+        touching[row] = 1;
+      else if (fine >> k & 1)
+        waiting[count++] = {row, end, end};
+      else
+        waiting[count++] = {row, middle, end}, waiting[count++] = {row, begin, middle};
+    }
+  }
+  return found;
 }
 
 // Search a route (MAX_POINTS, 16) once, shorten it, and return the number of its waypoints; see connect_trees.
