@@ -56,7 +56,7 @@ def _sources_digest() -> str:
     hasher, is_complete = hashlib.sha256(repr(versions("holdfast", "casadi", "numpy")).encode()), False
     for folder, folders, files in os.walk(_PACKAGE_FOLDER):
         folders[:] = sorted(set(folders) - _UNRELATED_FOLDERS)
-        for name in sorted(file for file in files if file.endswith((".py", ".c", ".h", ".js"))):
+        for name in sorted(file for file in files if file.endswith((".py", ".c", ".h", ".js", ".json"))):
             path, is_complete = f"{folder}/{name}", True
             hasher.update(path[len(str(_PACKAGE_FOLDER)) :].encode())
             with open(path, "rb") as file:  # noqa: PTH123  (pathlib takes as long again)
