@@ -1,4 +1,4 @@
-// Generated from src/holdfast/teleop/serve/messages.py by "python -m holdfast.teleop.serve.typescript_messages"; do not edit.
+// Generated from src/holdfast/teleop/serve/messages.py by "python -m tools.typescript_messages"; do not edit.
 
 export const FORMAT = 1;
 export const MOST_CYCLES = 256; // in one message

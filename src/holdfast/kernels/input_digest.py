@@ -25,7 +25,7 @@ from holdfast.core.caching import cached_property
 from holdfast.core.provenance import versions
 
 _PACKAGE_FOLDER = Path(__file__).parents[1]
-_UNRELATED_FOLDERS = {"interface", "__pycache__"}  # no expression is built there, and lower layers do not import them
+_UNRELATED_FOLDERS = {"interface", "static", "__pycache__"}  # no expression is built there, and lower layers do not import them
 
 
 _known: WeakKeyDictionary[object, bytes] = WeakKeyDictionary()
@@ -56,7 +56,7 @@ def _sources_digest() -> str:
     hasher, is_complete = hashlib.sha256(repr(versions("holdfast", "casadi", "numpy")).encode()), False
     for folder, folders, files in os.walk(_PACKAGE_FOLDER):
         folders[:] = sorted(set(folders) - _UNRELATED_FOLDERS)
-        for name in sorted(file for file in files if file.endswith((".py", ".c"))):
+        for name in sorted(file for file in files if file.endswith((".py", ".c", ".h", ".js", ".json"))):
             path, is_complete = f"{folder}/{name}", True
             hasher.update(path[len(str(_PACKAGE_FOLDER)) :].encode())
             with open(path, "rb") as file:  # noqa: PTH123  (pathlib takes as long again)

@@ -57,14 +57,14 @@ def renamed_public_names(table):
             yield package, *word.split("=")
 
 
-@pytest.mark.parametrize(("package", "old", "new"), list(renamed_public_names(renamed._PUBLIC_NAMES)))
+@pytest.mark.parametrize(("package", "old", "new"), list(renamed_public_names(renamed.read_table("renamed_names.txt"))))
 def test_a_renamed_public_name_names_its_successor(package, old, new):
     with pytest.raises(AttributeError, match=f"it is now {package}.{new}$"):
         getattr(import_module(package), old)
     assert hasattr(import_module(package), new)
 
 
-@pytest.mark.parametrize(("package", "old", "new"), list(renamed_public_names(renamed._REPOSITORY_NAMES)))
+@pytest.mark.parametrize(("package", "old", "new"), list(renamed_public_names(renamed.read_table("moved_names.txt"))))
 def test_a_public_name_that_left_the_package_names_its_place(package, old, new):
     with pytest.raises(AttributeError, match=f"it is now {new}, which is not installed; it is in the repository$"):
         getattr(import_module(package), old)

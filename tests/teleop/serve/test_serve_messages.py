@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tools.typescript_messages import format_messages
 
 import holdfast as hf
 from holdfast.teleop.serve import messages
-from holdfast.teleop.serve.typescript_messages import format_messages
 
 GOOD = {
     "hello": {"format": 1, "session": None, "code": "P07", "kind": "person", "fresh": "f" * 24},
@@ -120,6 +120,6 @@ def test_the_largest_message_passes_the_size_limit():
 
 
 def test_the_page_has_the_same_definitions():
-    """``python -m holdfast.teleop.serve.typescript_messages`` writes the file."""
+    """``python -m tools.typescript_messages`` writes the file."""
     page = Path(__file__).parents[3] / "page" / "src" / "messages.ts"
     assert page.read_text(encoding="utf-8") == format_messages()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -49,9 +50,8 @@ def generate_c_functions(functions: Mapping[str, CFunction]) -> str:
 def fill_template(package: str, folder: str, file: str, words: Mapping[str, str]) -> str:
     """Return a text file of a package with each placeholder in ``words`` replaced, the longest placeholder first."""
     text = resources.files(package).joinpath(folder, file).read_text(encoding="utf-8")
-    for word in sorted(words, key=len, reverse=True):
-        text = text.replace(word, words[word])
-    return text
+    placeholders = "|".join(sorted(words, key=len, reverse=True))
+    return re.sub(placeholders, lambda match: words[match[0]], text)
 
 
 def write_c_comment(lines: Sequence[str]) -> str:

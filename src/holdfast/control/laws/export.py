@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -12,7 +13,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.control.laws.c_functions import write_c_comment
+from holdfast.control.laws.c_functions import fill_template, write_c_comment
 from holdfast.core.errors import InputError
 from holdfast.core.files.output import write_files
 from holdfast.core.progress import reports_progress
@@ -114,170 +115,48 @@ def make_c_files(law: _Law, name: str) -> dict[str, str]:
         {"cse": True},
     )
     file_comment = _describe_c_function(law, name, list(outputs)[1:])
+    text_of = partial(fill_template, "holdfast.control.laws", "c", words=_template_values(law, name, function))
+    includes = f'#include "{name}.h"\n\n#include <math.h>\n'
+    # Without an answer, the law sets the rates to 0: zero rates stop an arm, whereas NaN would reach its drives.
     return {
-        f"{name}.c": f'{file_comment}\n#include "{name}.h"\n\n#include <math.h>\n\n{_source_text(law, name, function)}',
-        f"{name}.h": f"{file_comment}\n{_header_text(law, name, function)}",
-        f"{name}_example.c": _example_text(law, name, function),
-        f"{name}_test.c": _test_text(law, name, function),
+        f"{name}.c": f"{file_comment}\n{includes}\n{law.computed_in_c()}\n{text_of('law.c')}",
+        f"{name}.h": f"{file_comment}\n{text_of('law.h')}",
+        f"{name}_example.c": text_of("law_example.c"),
+        f"{name}_test.c": text_of("law_test.c"),
     }
 
 
-def _c_signature(law: _Law, name: str, function: ca.Function) -> str:
-    arguments = [f"const double q[{law.arm.n}]", f"const double v[{law.task.m}]", f"double rates[{law.arm.n}]"]
-    return f"int {name}({', '.join(arguments + [f'double *{output}' for output in function.name_out()[1:]])})"
-
-
-def _source_text(law: _Law, name: str, function: ca.Function) -> str:
+def _template_values(law: _Law, name: str, function: ca.Function) -> dict[str, str]:
+    """Return the values of the template placeholders."""
     n, m, extra_outputs = law.arm.n, law.task.m, function.name_out()[1:]
-    copies = "".join(f"    if ({output}) *{output} = fine ? out_{output} : 0;\n" for output in extra_outputs)
-    declared = "".join(f"    double out_{output} = 0;\n" for output in extra_outputs)
-    names = ", ".join(quote_c_string(output) for output in law.arm.joint_names)
-    # Zero rates stop an arm, whereas NaN would reach its drives.
-    return f"""{law.computed_in_c()}
-const char *const {name}_joints[{n}] = {{{names}}};
-
-int {name}_check_joints(const char *const names[], int count) {{
-    int k, i;
-    for (k = 0; k < {n}; ++k) {{
-        if (k >= count || !names[k]) return k + 1;
-        for (i = 0; names[k][i] && names[k][i] == {name}_joints[k][i]; ++i) {{}}
-        if (names[k][i] != {name}_joints[k][i]) return k + 1;
-    }}
-    return count > {n} ? {n + 1} : 0;
-}}
-
-{_c_signature(law, name, function)} {{
-{declared}    int fine = 1, k;
-    for (k = 0; k < {n}; ++k) fine = fine && q[k] - q[k] == 0;
-    for (k = 0; k < {m}; ++k) fine = fine && v[k] - v[k] == 0;
-    if (fine) {{
-        computed(q, v, rates{"".join(f", &out_{output}" for output in extra_outputs)});
-        for (k = 0; k < {n}; ++k) fine = fine && rates[k] - rates[k] == 0;
-    }}
-    for (k = 0; k < {n} && !fine; ++k) rates[k] = 0;
-{copies}    return fine ? 0 : 1;
-}}
-"""
-
-
-def _header_text(law: _Law, name: str, function: ca.Function) -> str:
-    guard = f"{name.upper()}_H"
-    return f"""#ifndef {guard}
-#define {guard}
-
-#define {name.upper()}_JOINTS {law.arm.n}
-#define {name.upper()}_ROWS {law.task.m}
-/* Version of holdfast, and fingerprint of the arm ("fingerprint" in 'holdfast describe --json', Arm.fingerprint in Python). */
-#define {name.upper()}_HOLDFAST "{holdfast_version()}"
-#define {name.upper()}_ARM "{law.arm.fingerprint}"
-
-#ifdef __cplusplus
-extern "C" {{
-#endif
-
-/* The joints in the order of q and rates. */
-extern const char *const {name}_joints[{law.arm.n}];
-
-/* Returns 0 if a driver has these joints in this order, else the position (from 1) of the first joint that differs. */
-int {name}_check_joints(const char *const names[], int count);
-
-{_c_signature(law, name, function)};
-
-#ifdef __cplusplus
-}}
-#endif
-
-#endif
-"""
-
-
-def _example_text(law: _Law, name: str, function: ca.Function) -> str:
-    n, m = law.arm.n, law.task.m
-    start = law.arm.states.get("home", np.mean(sampling_limits(law.arm), axis=0))
-    names = ", ".join(quote_c_string(joint_name) for joint_name in law.arm.joint_names)
-    null_arguments = ", 0" * (function.n_out() - 1)
-    return f"""/*
- * Control loop around {name}, in which an arm without dynamics follows the rates for one second.
- * cc -std=c99 {name}.c {name}_example.c -lm -o {name}_example
- */
-#include "{name}.h"
-
-#include <stdio.h>
-
-/* Joint names in the order of your driver. Take them from the driver, not from {name}_joints. */
-static const char *const driver[] = {{{names}}};
-
-int main(void) {{
-    double q[{n}] = {{{format_numbers(start)}}}; /* rad, m; read it from the drives */
-    double v[{m}] = {{{format_numbers([0.01] + [0.0] * (m - 1))}}}; /* {law.task.name}, {law.task.frame} frame, m/s and rad/s */
-    double rates[{n}];
-    const double cycle = 0.01; /* s */
-    int wrong = {name}_check_joints(driver, {n}), k, i;
-    if (wrong) {{
-        fprintf(stderr, "joint %d of the driver is not the arm's\\n", wrong);
-        return 2;
-    }}
-    for (k = 0; k < 100; ++k) {{
-        if ({name}(q, v, rates{null_arguments})) {{
-            fprintf(stderr, "the law has no answer in cycle %d; the rates are 0\\n", k);
-            return 1;
-        }}
-        for (i = 0; i < {n}; ++i) q[i] += cycle * rates[i]; /* send the rates to the drives */
-    }}
-    for (i = 0; i < {n}; ++i) printf("%s %.9f\\n", {name}_joints[i], q[i]);
-    return 0;
-}}
-"""
-
-
-def _test_text(law: _Law, name: str, function: ca.Function) -> str:
-    n, m = law.arm.n, law.task.m
+    arguments = [f"const double q[{n}]", f"const double v[{m}]", f"double rates[{n}]"]
     test_cases = _sample_cases(law, function)
-    null_arguments = ", 0" * (function.n_out() - 1)
-    rows = ",\n".join(
-        f"    {{{{{format_numbers(q)}}},\n     {{{format_numbers(v)}}},\n     {{{format_numbers(rates)}}}}}"
-        for q, v, rates in test_cases
-    )
-    return f"""/*
- * Test of {name}: returns 0 if it computes the same rates here as holdfast {holdfast_version()} did when it wrote this file.
- * cc -std=c99 {name}.c {name}_test.c -lm -o {name}_test
- */
-#include "{name}.h"
-
-#include <math.h>
-#include <stdio.h>
-
-static const struct {{ double q[{n}], v[{m}], rates[{n}]; }} cases[{len(test_cases)}] = {{
-{rows}}};
-
-int main(void) {{
-    double rates[{n}], q[{n}], size, off;
-    volatile double zero = 0;
-    int bad = 0, k, i;
-    for (k = 0; k < {len(test_cases)}; ++k) {{
-        int code = {name}(cases[k].q, cases[k].v, rates{null_arguments});
-        for (size = off = 0, i = 0; i < {n}; ++i) {{
-            size = fmax(size, fabs(cases[k].rates[i]));
-            off = fmax(off, fabs(rates[i] - cases[k].rates[i]));
-        }}
-        if (code || !(off <= {RATE_TOLERANCE:g} * size)) {{
-            printf("case %d: returned %d, the relative error of the rates is %g\\n", k + 1, code, off / size);
-            bad = 1;
-        }}
-    }}
-    for (i = 0; i < {n}; ++i) q[i] = zero / zero;
-    if ({name}(q, cases[0].v, rates{null_arguments}) != 1 || rates[0] != 0) {{
-        printf("NaN in q does not return 1 and zero rates; do not compile with -ffast-math\\n");
-        bad = 1;
-    }}
-    if ({name}_check_joints({name}_joints, {n}) != 0 || {name}_check_joints({name}_joints, {n - 1}) != {n}) {{
-        printf("{name}_check_joints accepts wrong joints or rejects the right ones\\n");
-        bad = 1;
-    }}
-    puts(bad ? "failed" : "passed");
-    return bad;
-}}
-"""
+    return {
+        "NAME": name,
+        "GUARD": name.upper(),
+        "COUNT": str(n),
+        "BELOW_COUNT": str(n - 1),
+        "ABOVE_COUNT": str(n + 1),
+        "TASK_ROWS": str(m),
+        "TASK_NAME": law.task.name,
+        "TASK_FRAME": law.task.frame,
+        "VERSION": holdfast_version(),
+        "FINGERPRINT": law.arm.fingerprint,
+        "JOINT_NAMES": ", ".join(map(quote_c_string, law.arm.joint_names)),
+        "SIGNATURE": f"int {name}({', '.join(arguments + [f'double *{output}' for output in extra_outputs])})",
+        "DECLARED_OUTPUTS": "".join(f"    double out_{output} = 0;\n" for output in extra_outputs),
+        "COPIED_OUTPUTS": "".join(f"    if ({output}) *{output} = fine ? out_{output} : 0;\n" for output in extra_outputs),
+        "ALL_OUTPUTS": ", ".join(["rates", *(f"&out_{output}" for output in extra_outputs)]),
+        "RATES_ONLY": ", ".join(["rates", *("0" for _ in extra_outputs)]),
+        "START": format_numbers(law.arm.states.get("home", np.mean(sampling_limits(law.arm), axis=0))),
+        "TWIST": format_numbers([0.01] + [0.0] * (m - 1)),
+        "TOLERANCE": f"{RATE_TOLERANCE:g}",
+        "CASE_COUNT": str(len(test_cases)),
+        "CASE_ROWS": ",\n".join(
+            f"    {{{{{format_numbers(q)}}},\n     {{{format_numbers(v)}}},\n     {{{format_numbers(rates)}}}}}"
+            for q, v, rates in test_cases
+        ),
+    }
 
 
 def _sample_cases(law: _Law, function: ca.Function) -> list[tuple[FloatArray, FloatArray, FloatArray]]:

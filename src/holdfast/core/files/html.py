@@ -8,18 +8,6 @@ from pathlib import Path
 
 from holdfast.core.files.output import replace_file
 
-# A page in a frame does not see its surroundings. This script tells it whether their text is light, now and on changes.
-_PAGE_BACKGROUND = """
-const told = () => {
-  const [r, g, b] = getComputedStyle(this).color.match(/[\\d.]+/g).map(Number);
-  this.contentWindow?.postMessage({ dark: r + g + b > 384 }, '*');
-};
-const changed = new MutationObserver(told);
-for (const node of [document.documentElement, document.body]) changed.observe(node, { attributes: true });
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', told);
-told();
-""".replace("\n", " ").strip()
-
 
 @dataclass(frozen=True)
 class Html:
@@ -49,9 +37,11 @@ class Html:
 
     def _repr_html_(self) -> str:
         """Return the page in its own frame, so that it takes nothing from the notebook except whether the notebook is dark."""
+        # A page in a frame does not see its surroundings. The script tells it whether their text is light, now and on changes.
+        script = " ".join(Path(__file__).with_name("page_background.js").read_text(encoding="utf-8").splitlines())
         return (
             f'<iframe srcdoc="{escape(self.text, quote=True)}" title="holdfast" sandbox="allow-scripts" '
-            f'onload="{escape(_PAGE_BACKGROUND, quote=True)}" '
+            f'onload="{escape(script, quote=True)}" '
             f'style="width:100%;height:{self.height}px;border:0"></iframe>'
         )
 

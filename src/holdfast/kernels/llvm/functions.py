@@ -113,8 +113,8 @@ def _split_exponent(e: Arithmetic, x: str) -> tuple[str, str]:
     return k, e.from_bits(e.integer_operation("add", e.integer_operation("and", shifted, _MANTISSA_BITS), _BITS_OF_ROOT_HALF))
 
 
-def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
-    """Return the logarithm of x plus ``correction``."""
+def _emit_log(e: Arithmetic, x: str) -> str:
+    """Return the logarithm of x."""
     k, m = _split_exponent(e, x)
     f = e.add(m, e.constant(-1.0))
     s = e.binary("fdiv", f, e.add(f, e.constant(2.0)))
@@ -122,8 +122,6 @@ def _emit_log(e: Arithmetic, x: str, correction: str | None = None) -> str:
     r = e.mul(z, emit_polynomial(e, _LOG_COEFFICIENTS, z))
     half = e.mul(e.mul(e.constant(0.5), f), f)
     below = e.mul(k, e.constant(_LN2_LOW))
-    if correction is not None:
-        below = e.add(below, correction)
     y = e.fma(k, e.constant(_LN2_HIGH), e.sub(f, e.sub(half, e.fma(s, e.add(half, r), below))))
     y = e.select(e.compare("oeq", x, e.constant(_INFINITY)), x, y)
     y = e.select(e.compare("oeq", x, e.constant(0.0)), e.constant(-_INFINITY), y)

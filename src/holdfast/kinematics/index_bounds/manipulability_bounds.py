@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from math import comb
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from holdfast.core.errors import InputError
 from holdfast.core.formatting import format_percent
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray
-from holdfast.kinematics.index_bounds.closed_forms import CLOSED_FORMS
 from holdfast.kinematics.index_bounds.frames import known_null_space, orthogonal_complement
 from holdfast.kinematics.index_bounds.minors import measure_orthonormality_error, worst_relative_manipulability
 from holdfast.kinematics.index_bounds.theorems import ProvedBound, best_proved_bound
@@ -93,9 +92,10 @@ class UpperBound(Result):
 
     @property
     def closed_form(self) -> str:
-        """Closed form of the best known value, if recognised by its digits; only a theorem T proves it."""
+        """Closed form of the best known value, if recognised by its 15 digits; only a theorem T proves it."""
         own, complementary = ((self.n, *pair) for pair in ((self.m, self.k), (self.k, self.m)))
-        return CLOSED_FORMS.get(own) or (CLOSED_FORMS.get(complementary, "") if self.k == self.n - self.m else "")
+        forms = read_closed_forms()
+        return forms.get(own) or (forms.get(complementary, "") if self.k == self.n - self.m else "")
 
     @property
     def gap(self) -> float | None:
@@ -220,12 +220,22 @@ def bound_table(m: int | None = None) -> UpperBoundTable:
 
 @cache
 def _read_null_spaces() -> dict[tuple[int, int, int], list[list[float]]]:
-    text = (Path(__file__).parent / "null_spaces.json").read_text(encoding="utf-8")
-    null_spaces: dict[tuple[int, int, int], list[list[float]]] = {}
-    for key, rows in json.loads(text).items():
+    return dict(sorted(_read_table("null_spaces.json").items(), key=lambda item: (item[0][1], item[0][2], item[0][0])))
+
+
+@cache
+def read_closed_forms() -> dict[tuple[int, int, int], str]:
+    """Return closed forms of best known values by (n, m, k), recognised from 15 digits; only a theorem proves such a form."""
+    return _read_table("closed_forms.json")
+
+
+def _read_table(file: str) -> dict[tuple[int, int, int], Any]:
+    """Return the values of a JSON file of this folder by (n, m, k)."""
+    table: dict[tuple[int, int, int], Any] = {}
+    for key, value in json.loads(Path(__file__).with_name(file).read_text(encoding="utf-8")).items():
         n, m, k = map(int, key.split(","))
-        null_spaces[n, m, k] = rows
-    return dict(sorted(null_spaces.items(), key=lambda item: (item[0][1], item[0][2], item[0][0])))
+        table[n, m, k] = value
+    return table
 
 
 def _best_null_space(n: int, m: int, k: int) -> FloatArray | None:

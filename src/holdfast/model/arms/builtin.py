@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from importlib import resources
 from typing import Any, Literal
 
@@ -96,31 +96,9 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             name=name, n=len(home_deg), summary=summary, source=source, licence="MIT", home=_to_radians(home_deg), task=task
         ), make
 
-    def make_file_entry(
-        name: str,
-        base: str,
-        tip: str,
-        home: tuple[float, ...],
-        summary: str,
-        remark: str = "",
-        task: Literal["pose", "position"] = "pose",
-        armature: tuple[float, ...] = (),
-    ) -> tuple[Builtin, Callable[[], Arm]]:
-        origin = origins[name]
-        source = (
-            f"{origin['upstream']}; {origin['original']} of {origin['package']} {origin['version']}, stripped to "
-            f"inertials and joints{remark}"
-        )
-        return Builtin(
-            name=name, n=len(home), summary=summary, source=source, licence=origin["licence"], home=home, task=task
-        ), lambda: _load_data_file(origin["file"], base, tip, armature)
-
     rod_source = (
         "textbook arm: links of 1 m and 1 kg, uniform thin rods (inertia m l^2/12 about the two axes across the rod, 0 about "
         "the rod), moving in the world's x-y plane with gravity along -y, limits +-180 deg"
-    )
-    ur5 = make_file_entry(
-        "ur5", "base_link", "tool0", _to_radians((0, -90, 90, -45, -90, 0)), "Universal Robots UR5, not redundant"
     )
     entries = [
         make_code_entry("planar-2r", lambda: _planar_arm(2), (30, 60), "planar arm, two unit links", rod_source, "planar"),
@@ -145,84 +123,48 @@ def _builtin_entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             "Abdi, Maciejewski and Nahavandi (2012), Table I; no inertials",
             "pose",
         ),
-        make_file_entry(
-            "panda",
-            "panda_link0",
-            "panda_hand_tcp",
-            _to_radians((0, -45, 0, -135, 0, 90, 45)),
-            "Franka Emika Panda with hand, fingers shut",
-            ", collision shapes kept",
-        ),
-        make_file_entry("xarm7", "link_base", "link_eef", _to_radians((0, -20, 0, 50, 0, 70, 0)), "UFACTORY xArm7"),
-        make_file_entry(
-            "iiwa14",
-            "lbr_iiwa_link_0",
-            "lbr_iiwa_link_7",
-            _to_radians((0, 30, 0, -75, 0, 75, 0)),
-            "KUKA LBR iiwa 14 R820",
-            "; its masses, inertias, efforts (300 N m) and speeds (10 rad/s) are round placeholders, not the maker's",
-        ),
-        ur5,
-        (
-            Builtin(
-                name="ur5-rail",
-                n=7,
-                summary="Universal Robots UR5 on a 2 m rail",
-                source=f"{ur5[0].source}; the rail along y and its carriage with the robot's foot are assumed: range 0 to 2 m, "
-                "1 m/s, 500 N, 24 kg, a uniform box of 0.4 x 0.4 x 0.1 m",
-                licence=ur5[0].licence,
-                home=(1.0, *ur5[0].home),
-            ),
-            _ur5_on_rail,
-        ),
-        make_file_entry(
-            "kinova-j2s6s200",
-            "base",
-            "j2s6s200_end_effector",
-            _to_radians((275, 165, 60, 240, 85, 75)),
-            "Kinova Jaco 2 (j2s6s200), three joints without limits, not redundant",
-        ),
-        make_file_entry(
-            "yam",
-            "base",
-            "tool",
-            (0.0, 1.047, 1.047, 0.0, 0.0, 0.0),
-            "I2RT YAM with gripper, parked as after its start, not redundant",
-            ", collision geoms as capsules, without the camera; rotor inertias are those of its motors",
-            armature=(0.032, 0.032, 0.032, 0.0018, 0.0018, 0.0018),
-        ),
-        make_file_entry(
-            "so101",
-            "base",
-            "tool",
-            _to_radians((0, 25, -30, 85, 0)),
-            "SO-101 with gripper, redundant for positions",
-            ", collision meshes as capsules",
-            task="position",
-            armature=(0.028,) * 5,
-        ),
-        make_file_entry(
-            "openarm",
-            "base",
-            "tool",
-            _to_radians((0, -40, 0, 90, 0, 0, 40)),
-            "OpenArm 1.0 with gripper, the left arm on its pedestal",
-            ", collision meshes as capsules; its rotor inertias (1 kg m2) and efforts are placeholders, and left out",
-        ),
     ]
+    for name, origin in origins.items():
+        entry = _read_file_entry(name, origin)
+        entries.append((entry, partial(_load_data_file, origin)))
+        if name == "ur5":
+            entries.append((_put_on_rail(entry), _ur5_on_rail))
     return {entry.name: (entry, make) for entry, make in entries}
 
 
-def _to_radians(degrees: tuple[float, ...]) -> tuple[float, ...]:
+def _to_radians(degrees: Sequence[float]) -> tuple[float, ...]:
     return tuple(np.deg2rad(degrees).tolist())
 
 
-def _load_data_file(file: str, base: str, tip: str, armature: tuple[float, ...] = ()) -> Arm:
-    with resources.as_file(DATA_FOLDER.joinpath(file)) as path:
-        arm = Arm.from_urdf(path, base, tip)
-    if not armature:
+def _read_file_entry(name: str, origin: Mapping[str, Any]) -> Builtin:
+    """Return the facts about an arm whose file has an entry in ``provenance.yaml``."""
+    home = tuple(origin["home_rad"]) if "home_rad" in origin else _to_radians(origin["home_deg"])
+    source = (
+        f"{origin['upstream']}; {origin['original']} of {origin['package']} {origin['version']}, stripped to "
+        f"inertials and joints{origin.get('remark', '')}"
+    )
+    facts = {"summary": origin["summary"], "licence": origin["licence"], "task": origin.get("task", "pose")}
+    return Builtin(name=name, n=len(home), source=source, home=home, **facts)
+
+
+def _put_on_rail(ur5: Builtin) -> Builtin:
+    return Builtin(
+        name="ur5-rail",
+        n=7,
+        summary="Universal Robots UR5 on a 2 m rail",
+        source=f"{ur5.source}; the rail along y and its carriage with the robot's foot are assumed: range 0 to 2 m, "
+        "1 m/s, 500 N, 24 kg, a uniform box of 0.4 x 0.4 x 0.1 m",
+        licence=ur5.licence,
+        home=(1.0, *ur5.home),
+    )
+
+
+def _load_data_file(origin: Mapping[str, Any]) -> Arm:
+    with resources.as_file(DATA_FOLDER.joinpath(origin["file"])) as path:
+        arm = Arm.from_urdf(path, origin["base"], origin["tip"])
+    if "armature" not in origin:
         return arm
-    pairs = zip(arm.joints, armature, strict=True)
+    pairs = zip(arm.joints, origin["armature"], strict=True)
     return replace(arm, joints=tuple(replace(joint, armature=value) for joint, value in pairs))
 
 

@@ -43,10 +43,6 @@ class NodeGrid:
         nodes_x, nodes_y, nodes_z = (2 * count - 1 for count in self.shape)
         return NodeGrid(self.origin, self.width / 2, (nodes_x, nodes_y, nodes_z))
 
-    def axis_coordinates(self, axis_index: int) -> FloatArray:
-        """Return the coordinates of the nodes along x, y, or z, m."""
-        return np.asarray(self.origin[axis_index] + self.width * np.arange(self.shape[axis_index]))
-
     @staticmethod
     def enclose_box(lower: FloatArray, upper: FloatArray, rim_widths: float, max_nodes: int, min_width: float) -> NodeGrid:
         """Return the finest grid around a box that has at most ``max_nodes`` nodes and a rim of ``rim_widths`` widths."""

@@ -141,23 +141,23 @@ def make_hull(piece: Piece) -> PieceHull:
     )
 
 
-def corner_points(piece: Piece, inscribed: bool = False) -> FloatArray:
-    """Return points (V, 3) in the frame of the link whose hull contains the piece, or, if ``inscribed``, is contained in it.
+def corner_points(piece: Piece) -> FloatArray:
+    """Return points (V, 3) in the frame of the link whose hull contains the piece.
 
     The hull is the piece itself for a box and a convex mesh.
     """
-    points = piece.vertices if piece.kind == "mesh" else _primitive_corners(piece, inscribed)
+    points = piece.vertices if piece.kind == "mesh" else _primitive_corners(piece)
     return np.asarray(points @ piece.pose[:3, :3].T + piece.pose[:3, 3])
 
 
-def _primitive_corners(piece: Piece, inside: bool) -> FloatArray:
+def _primitive_corners(piece: Piece) -> FloatArray:
     if piece.kind == "box":
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         return np.asarray(signs * np.array(piece.size) / 2)
     angles = 2 * np.pi * np.arange(_CYLINDER_SIDES) / _CYLINDER_SIDES
     if piece.kind == "cylinder":
         radius, length = piece.size
-        ring_radius = radius if inside else radius / np.cos(np.pi / _CYLINDER_SIDES)
+        ring_radius = radius / np.cos(np.pi / _CYLINDER_SIDES)
         ring = np.column_stack(
             [ring_radius * np.cos(angles), ring_radius * np.sin(angles), np.full(_CYLINDER_SIDES, length / 2)]
         )
@@ -171,7 +171,7 @@ def _primitive_corners(piece: Piece, inside: bool) -> FloatArray:
             for azimuth in angles
         ]
     )
-    sphere_points = sphere_points if inside else sphere_points * ((1 + 1e-9) / np.cos(np.pi / _CYLINDER_SIDES) ** 2)
+    sphere_points *= (1 + 1e-9) / np.cos(np.pi / _CYLINDER_SIDES) ** 2
     if piece.kind == "capsule":
         radius, length = piece.size
         return np.concatenate([sphere_points * radius + np.array([0, 0, z]) for z in (-length / 2, length / 2)])

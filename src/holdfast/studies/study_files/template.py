@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import textwrap
 from collections.abc import Iterable, Sequence
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -21,57 +22,6 @@ from holdfast.model.arms.spec import ArmSpec
 _SMALL_CHUNK = 500
 _MAX_CHUNKS = 1000
 _BLOCK_POSES = 1024  # poses of a block of a box region, which share one seed
-
-_STUDY_TEXT = """\
-# This study computes every combination of the lists below. Each combination is a cell.
-#
-#   holdfast study run {file} --dry-run   list the cells with their estimated time and size
-#   holdfast study run {file} --out DIR   compute the study; after Ctrl-C, the same command resumes it
-#   holdfast study status DIR   show the progress; 'verify DIR' checks every chunk, 'report DIR' writes an HTML report
-#
-# A different seed needs a different folder. The results depend on every entry except name and thresholds.
-
-name: {name}
-
-# The same seed gives bit-identical results with threads or a Dask cluster, with or without an interruption.
-seed: {seed}
-
-# Number of samples per cell, and number of samples per chunk. A chunk is computed and stored as a whole, so a crash
-# loses only unfinished chunks. It should take between a second and a minute.
-poses: {poses}
-chunk: {chunk}
-
-# Built-in names (see 'holdfast arms'), files relative to this one {{file: my_arm.urdf, base: base_link, tip: tool0}}, or
-# designs of one arm, each evaluated at its best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
-arms: {arms}
-
-# How likely is each arm to keep its dexterity in a region when a joint fails? See 'holdfast assess --help'.
-assess:
-{known_indices}
-  indices: {indices}
-  tasks: [default]          # {known_tasks}, or components ("tool:vx,vy"); default: the arm's
-  regions: [default]        # region files, with paths relative to this file; default: a box around the arm's home
-  failures: [single]        # {known_failures}
-  optimise: {optimise}           # true: also find the best configuration of each pose
-  after_lock: false         # true: also find the poses that stay reachable after each joint has locked
-  sampling: random          # random or sobol (low-discrepancy points)
-  restarts: 100             # number of random starts per pose before it counts as not reached
-  keep: rows                # rows stores every pose; counts stores only distributions (for very many samples)
-  # thresholds: {{relative-manipulability: 0.3}}  # thresholds of the report; default: half of the bound, or the median
-
-# How often does each arm still reach its target after an undetected lock? See 'holdfast convergence-map --help'.
-{convergence}
-# Other blocks are workspace (keys laws, targets, starts, configurations, points) and bank (laws, sets, distance). The guide
-# "Sweep on a laptop or a cluster" explains all blocks.
-"""
-
-_LAWS_TEXT = """\
-convergence:
-{known_laws}
-  laws: {laws}
-  motions: {motions}              # number of random motions per cell; default: poses
-  chunk: {motions_chunk}
-"""
 
 
 def write(
@@ -116,13 +66,15 @@ def write(
     motions = min(poses, 200)
     convergence_text = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
     if laws:
-        convergence_text = _LAWS_TEXT.format(
+        convergence_text = _fill_template(
+            "template_laws.txt",
             known_laws=_list_known(LAW_REGISTRY),
             laws=_format_list(laws),
             motions=motions,
             motions_chunk=min(chunk, 50, motions),
         )
-    study_text = _STUDY_TEXT.format(
+    study_text = _fill_template(
+        "template.txt",
         file=path.name,
         name=_format_on_one_line(path.stem),
         seed=seed,
@@ -143,6 +95,11 @@ def write(
         path.unlink()
         raise
     return path
+
+
+def _fill_template(template: str, **values: Any) -> str:
+    """Return a text file of this package with its placeholders in braces replaced."""
+    return resources.files("holdfast.studies.study_files").joinpath(template).read_text(encoding="utf-8").format(**values)
 
 
 def choose_chunk_size(poses: int) -> int:

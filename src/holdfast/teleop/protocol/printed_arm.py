@@ -13,6 +13,7 @@ import json
 import casadi as ca
 import numpy as np
 
+from holdfast.control.laws.c_functions import fill_template
 from holdfast.control.laws.law import Law
 from holdfast.kernels.disk_cache import cached_json
 from holdfast.kernels.javascript.functions import define_functions
@@ -84,16 +85,17 @@ def _generate_javascript_module(laws: list[Law], substeps: int) -> str:
         programs[f"law{number}"] = Program(f"sub-step, {law.slug}", symbols, step(*symbols))
     programs |= {"place": Program("position", [q], [position]), "wire": Program("points", [q], [frame.T])}
     body = "".join(write_javascript(program, name, with_functions=False) for name, program in programs.items())
-    return _MODULE_TEMPLATE.format(
-        joints=arm.n,
-        axes=task.m,
-        laws=len(laws),
-        markers=frame.shape[1],
-        programs=define_functions(body) + body,
-        steps=",".join(f"law{number}" for number in range(len(laws))),
-        substeps=substeps,
-        warm=_WARMUP_CYCLES,
-    )
+    words = {
+        "JOINT_COUNT": str(arm.n),
+        "AXIS_COUNT": str(task.m),
+        "LAW_COUNT": str(len(laws)),
+        "MARKER_COUNT": str(frame.shape[1]),
+        "PROGRAMS": (define_functions(body) + body).removesuffix("\n"),
+        "STEP_FUNCTIONS": ",".join(f"law{number}" for number in range(len(laws))),
+        "SUBSTEPS": str(substeps),
+        "WARMUP_CYCLES": str(_WARMUP_CYCLES),
+    }
+    return fill_template("holdfast.teleop.protocol", "javascript", "arm_module.js", words)
 
 
 def _wire_frame_points(arm: Arm, q: SX) -> SX:
@@ -103,35 +105,3 @@ def _wire_frame_points(arm: Arm, q: SX) -> SX:
     at_base = not np.any(arm.joints[0].origin[:3, 3])
     markers = [*([] if at_base else moving[:1]), *fixed, tool]
     return ca.densify(ca.horzcat(*[position for _, position in markers]))
-
-
-_MODULE_TEMPLATE = """\
-// Printed by holdfast from the equations of its kernels: do not edit.
-export const joints={joints},axes={axes},laws={laws},markers={markers};
-{programs}\
-const steps=[{steps}];
-const x=new Float64Array(2*joints+axes),y=new Float64Array(joints+axes);
-export function cycle(law,q,velocity,healthy,out){{
-const step=steps[law];
-if(step===undefined)throw new RangeError("law "+law+" is not known; the arm has "+laws+", from 0");
-for(let i=0;i<joints;i++){{x[i]=q[i];x[joints+axes+i]=healthy[i];}}
-for(let i=0;i<axes;i++)x[joints+i]=velocity[i];
-step(x,y);
-for(let i=0;i<axes;i++)out[joints+i]=y[joints+i];
-for(let k=1;k<{substeps};k++){{
-for(let i=0;i<joints;i++)x[i]=y[i];
-step(x,y);
-}}
-for(let i=0;i<joints;i++)out[i]=y[i];
-}}
-export function position(q,out){{place(q,out);}}
-export function points(q,out){{wire(q,out);}}
-// Engines compile what has run a while, from all sides: so that no trial has to wait for it.
-const q0=new Float64Array(joints),v0=new Float64Array(axes);
-const all=new Float64Array(joints).fill(1),end=new Float64Array(joints+axes);
-for(let law=0;law<laws;law++)for(let k=0;k<{warm};k++){{
-for(let i=0;i<joints;i++)q0[i]=3*Math.sin(k*(i+1.3));
-for(let i=0;i<axes;i++)v0[i]=k%7===0?0:0.05*Math.sin(k*(i+2.7));
-cycle(law,q0,v0,all,end);
-}}
-"""

@@ -24,30 +24,6 @@ _JOURNAL_FILE = _UNFINISHED_FILE + "-journal"  # written by SQLite
 _INITIAL_FORMAT = "1"  # format of a file without digests, whose tables are created after the others
 _KNOWN_FORMATS = (_INITIAL_FORMAT, str(RECORDS_FORMAT))
 
-_CREATE_TABLES = """
-CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE subjects (
-    code TEXT PRIMARY KEY, number INTEGER NOT NULL UNIQUE, row INTEGER NOT NULL, kind TEXT NOT NULL, state TEXT NOT NULL,
-    since TEXT NOT NULL, answers TEXT NOT NULL DEFAULT '{}', note TEXT NOT NULL DEFAULT ''
-) WITHOUT ROWID;
-CREATE TABLE trials (
-    id INTEGER PRIMARY KEY, subject TEXT NOT NULL REFERENCES subjects(code) ON DELETE CASCADE, kind TEXT NOT NULL,
-    position INTEGER NOT NULL, task INTEGER NOT NULL, scenario INTEGER NOT NULL, joint INTEGER NOT NULL, q0 BLOB NOT NULL,
-    target BLOB NOT NULL, began TEXT NOT NULL, ended TEXT, end INTEGER, rating INTEGER, answers TEXT NOT NULL DEFAULT '{}'
-);
-CREATE INDEX trials_of ON trials (subject, kind, position);
-CREATE TABLE cycles (
-    trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE, k INTEGER NOT NULL, time REAL NOT NULL,
-    velocity BLOB NOT NULL, q BLOB NOT NULL, PRIMARY KEY (trial, k)
-) WITHOUT ROWID;
-CREATE TABLE events (
-    id INTEGER PRIMARY KEY, trial INTEGER REFERENCES trials(id) ON DELETE CASCADE,
-    subject TEXT REFERENCES subjects(code) ON DELETE CASCADE, k INTEGER, at TEXT NOT NULL, kind TEXT NOT NULL,
-    data TEXT NOT NULL DEFAULT '{}'
-);
-CREATE INDEX events_of ON events (trial);
-"""
-
 
 def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, str]) -> None:
     """Write the files of a new experiment.
@@ -69,7 +45,7 @@ def create_experiment(folder: Path, protocol: Protocol, metadata: Mapping[str, s
         unfinished.write_bytes(b"")
         stored_protocol = protocols.read_protocol(protocol.write(folder / PROTOCOL_FILE))
         with closing(sqlite3.connect(unfinished, isolation_level=None)) as database:
-            database.executescript(_CREATE_TABLES)
+            database.executescript(Path(__file__).with_name("tables.sql").read_text(encoding="utf-8"))
             package_versions = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
             entries = {
                 **metadata,

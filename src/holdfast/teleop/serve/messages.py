@@ -1,7 +1,7 @@
 """Messages between page and server, defined once for both sides.
 
 Every message is a JSON object with a ``type``. Unknown keys, NaN, and sizes beyond the bounds here are refused.
-``page/src/messages.ts`` is printed from these models by :mod:`holdfast.teleop.serve.typescript_messages`.
+``page/src/messages.ts`` is printed from these models by ``python -m tools.typescript_messages``.
 
 The page's messages after the first carry ``seq`` 1, 2, 3 ... of the session, whatever the connection; the server acknowledges
 them when they are on the disk.

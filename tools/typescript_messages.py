@@ -1,4 +1,4 @@
-"""Messages as TypeScript: ``python -m holdfast.teleop.serve.typescript_messages`` writes page/src/messages.ts."""
+"""Messages as TypeScript: ``python -m tools.typescript_messages`` writes page/src/messages.ts."""
 
 from __future__ import annotations
 
@@ -23,8 +23,7 @@ _FROM_PAGE = (
 _PART_MODELS = (messages.TrainingTask, messages.PlannedTrial, messages.Plan, messages.Done)
 _FROM_SERVER = (messages.Welcome, messages.Ack, messages.Refused, messages.Pause, messages.Unstored, messages.Bye)
 _FILE_HEADER = (
-    "// Generated from src/holdfast/teleop/serve/messages.py by "
-    '"python -m holdfast.teleop.serve.typescript_messages"; do not edit.\n'
+    '// Generated from src/holdfast/teleop/serve/messages.py by "python -m tools.typescript_messages"; do not edit.\n'
 )
 
 
@@ -68,6 +67,6 @@ def _format_type(annotation: Any) -> str:
 
 
 if __name__ == "__main__":
-    file = Path(__file__).parents[4] / "page" / "src" / "messages.ts"
+    file = Path(__file__).parents[1] / "page" / "src" / "messages.ts"
     file.write_text(format_messages(), encoding="utf-8")
     print(f"written: {file}")
