@@ -190,7 +190,7 @@ class ContactSearch:
         stepper.parameters.view_parts(parameters)["until"][touching, 0] = time[touching]
         result = stepper.loop.run(origins[touching], parameters[touching], 0.5, most_calls)
         states[touching], done[touching] = result.state, result.done
-        return self.simulator.read_states(q, states, done, pair)
+        return self.simulator.read_states(parameters, states, done, pair)
 
     def find_touching(self, q: FloatArray) -> BoolArray:
         """Return (N, P) True for pairs that touch at configurations (N, n)."""

@@ -118,17 +118,17 @@ class FallSimulator:
     def _run_block(self, q: FloatArray, rates: FloatArray, until: FloatArray, step: FloatArray) -> FallStates:
         states, parameters, most_calls = self.make_rows(q, rates, until, step)
         result = self.stepper.loop.run(states, parameters, 0.5, most_calls)
-        return self.read_states(q, result.state, result.done, np.full(len(q), -1, dtype=np.int64))
+        return self.read_states(parameters, result.state, result.done, np.full(len(q), -1, dtype=np.int64))
 
-    def read_states(self, starts: FloatArray, states: FloatArray, done: BoolArray, pair: IndexArray) -> FallStates:
-        """Return the states of falls from ``starts`` (N, n) from the states of the loop."""
-        parts = self.stepper.layout.view_parts(states)
+    def read_states(self, parameters: FloatArray, states: FloatArray, done: BoolArray, pair: IndexArray) -> FallStates:
+        """Return the states of falls from the parameters and the states of the loop."""
+        parts, known = self.stepper.layout.view_parts(states), self.stepper.parameters.view_parts(parameters)
         end, time = parts["q"].copy(), parts["time"][:, 0].copy()
         return FallStates(
             q=end,
             rates=parts["rates"].copy(),
             tool=self.tool_points(end),
-            drop=np.maximum(parts["drop"][:, 0], self.points.drops(self.arm, starts, end)),
+            drop=np.maximum(parts["drop"][:, 0], (self.points.depths(self.arm, end) - known["start_depth"]).max(axis=1)),
             time=time,
             residual=parts["residual"][:, 0].copy(),
             is_at_rest=parts["code"][:, 0] == STATE_AT_REST,
