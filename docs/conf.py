@@ -48,7 +48,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"RunSettings|_Simulator|holdfast\.control\.laws\.export\._Law"),
     (r"py:class", r"holdfast\.certificates\.(proof\.(Bisection|Certificate|Composite)Result|tool_paths\.proof\.LockedPath)"),
     (r"py:class", r"holdfast\.control\.simulation\.closed_loop\.LockSchedule"),
-    (r"py:class", r"holdfast\.(control\.falls\.simulator\.FallSimulator|model\.arm\.friction\.JointFriction)"),
+    (r"py:class", r"holdfast\.(control\.falls\.(drop_points\.DropPoints|simulator\.FallSimulator)|model\.arm\.friction\.JointFriction)"),
     (r"py:class", r"holdfast\.core\.(probability\.intervals\.WeightSums|sweeps\.journal\.JournalEntry)"),
     (r"py:class", r"holdfast\.interface\.(presentation\.arm\.body\.MeshPart|report\.viewer\.ViewerScene)"),
     (r"py:class", r"holdfast\.interface\.studio\.(machine\.CompiledArm|answers\.ServedArm)"),

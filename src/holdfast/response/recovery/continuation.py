@@ -154,18 +154,21 @@ def follow_to_furthest_point(
         return replace(rest, cut_off=True), []
     stride = float(np.diff(rest.share).max())
     continuation = follow_path_furthest(search, path, first_configurations, max_path_step=stride, rng=rng)
-    graph_size, refinement = max(rest.graph, continuation.configuration_count), None
-    rest = replace(rest, begin=continuation.q[0], graph=graph_size, cut_off=False)
-    if continuation.fractions[-1] == 1:
-        is_reached = np.ones(len(continuation.fractions), dtype=bool)
-        refinement = refine_waypoints(
-            replace(rest, furthest=1.0, share=continuation.fractions, found=is_reached), search, path, continuation.q
-        )
-    if refinement is None:  # perhaps because the tool leaves the path between two waypoints
-        deviating = _find_deviating_segments(search, path, continuation.fractions, continuation.q)
-        furthest = float(continuation.fractions[deviating[0] if deviating.size else -1])
-        return replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest)), []
-    return refinement[0], [refinement[1]]
+    fractions, motion = continuation.fractions, continuation.q
+    rest = replace(rest, begin=motion[0], graph=max(rest.graph, continuation.configuration_count), cut_off=False)
+    furthest = float(fractions[-1])
+    if furthest == 1:
+        all_reached = replace(rest, furthest=1.0, share=fractions, found=np.ones(len(fractions), dtype=bool))
+        refinement = refine_waypoints(all_reached, search, path, motion)
+        if refinement is not None:
+            return refinement[0], [refinement[1]]
+        for segment in _find_deviating_segments(search, path, fractions, motion).tolist():  # one of them skips poses
+            ends = slice(segment, segment + 2)
+            piece = replace(all_reached, share=fractions[ends], found=all_reached.found[ends])
+            if refine_waypoints(piece, search, path, motion[ends]) is None:
+                furthest = float(fractions[segment])
+                break
+    return replace(rest, furthest=furthest, found=rest.found | (rest.share <= furthest)), []
 
 
 def _follow_samples(
