@@ -23,7 +23,7 @@ export function readUrdf(text: string): UrdfArm {
   let pose = IDENTITY; // in the frame of the last joint
   for (const joint of path) {
     pose = times(pose, readOrigin(joint));
-    const [name, type] = [nameOf(joint), nameOf(joint, "type")];
+    const [name, type] = [readAttribute(joint), readAttribute(joint, "type")];
     if (type === "fixed") continue;
     if (!isRevolute(joint)) throw new Error(`Joint ${name} is ${child(joint, "mimic") ? "a mimic joint" : type}, not revolute`);
     const axis = unit(readNumbers(joint, "axis", "xyz", "1 0 0", 3) as Vector);
@@ -39,26 +39,29 @@ export function readUrdf(text: string): UrdfArm {
 }
 
 const child = (element: Element, tag: string): Element | undefined => [...element.children].find((e) => e.tagName === tag);
-const nameOf = (element: Element | undefined, attribute = "name"): string => element?.getAttribute(attribute) ?? "";
-const linkOf = (joint: Element, role: string): string => nameOf(child(joint, role), "link");
-const isRevolute = (joint: Element): boolean => /^(revolute|continuous)$/.test(nameOf(joint, "type")) && !child(joint, "mimic");
+const readAttribute = (element: Element | undefined, attribute = "name"): string => element?.getAttribute(attribute) ?? "";
+const linkOf = (joint: Element, role: string): string => readAttribute(child(joint, role), "link");
+const isRevolute = (joint: Element): boolean => /^(revolute|continuous)$/.test(readAttribute(joint, "type")) && !child(joint, "mimic");
 
-/** Find the joints from the root to a tip: the most revolute ones, then to a link named as a tool, then the most; no fingers. */
+/**
+ * Find the joints from the root to a tip, without fingers. The chain with the most revolute joints is chosen, among these one to
+ * a link that is named as a tool, then the longest.
+ */
 function findChain(elements: Element[]): Element[] {
   const joints = elements.filter(({ tagName }) => tagName === "joint");
   const children = new Set(joints.map((joint) => linkOf(joint, "child")));
-  const roots = elements.filter((element) => element.tagName === "link" && !children.has(nameOf(element)));
+  const roots = elements.filter((element) => element.tagName === "link" && !children.has(readAttribute(element)));
   if (roots.length !== 1 || children.size !== joints.length) throw new Error("Its links do not form one tree");
   let [chain, highest]: [Element[], number] = [[], 0];
   const walk = (link: string, path: Element[], rank: number): void => {
     const score = rank + (TOOL.test(link) ? 1e3 : 0);
     if (score > highest) [chain, highest] = [path, score];
     for (const joint of joints.filter((each) => linkOf(each, "parent") === link)) {
-      const [next, weight] = [linkOf(joint, "child"), isRevolute(joint) ? 1e6 : nameOf(joint, "type") === "fixed" ? 1 : -1e4];
-      if (!FINGER.test(`${nameOf(joint)} ${next}`)) walk(next, [...path, joint], rank + weight);
+      const [next, weight] = [linkOf(joint, "child"), isRevolute(joint) ? 1e6 : readAttribute(joint, "type") === "fixed" ? 1 : -1e4];
+      if (!FINGER.test(`${readAttribute(joint)} ${next}`)) walk(next, [...path, joint], rank + weight);
     }
   };
-  walk(nameOf(roots[0]), [], 0);
+  walk(readAttribute(roots[0]), [], 0);
   return chain;
 }
 
@@ -83,6 +86,6 @@ function readOrigin(joint: Element): Pose {
 function readLimits(joint: Element): (number | null)[] {
   const [low, high] = ["lower", "upper"].map((key) => readNumbers(joint, "limit", key, "0", 1)[0]);
   const isGiven = ["lower", "upper"].some((key) => child(joint, "limit")?.hasAttribute(key));
-  if (!isGiven || low > high) throw new Error(`Joint ${nameOf(joint)} needs a lower limit below its upper limit`);
+  if (!isGiven || low > high) throw new Error(`Joint ${readAttribute(joint)} needs a lower limit below its upper limit`);
   return [low, high].map((value) => (Math.abs(value) > FARTHEST_LIMIT_RAD ? null : value));
 }

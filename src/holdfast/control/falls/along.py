@@ -15,6 +15,7 @@ from holdfast.core.progress import reports_progress, track
 from holdfast.core.result import Result
 from holdfast.core.typing import FloatArray, IndexArray
 from holdfast.core.validation import check_arguments, require_real_numbers
+from holdfast.model.arm.friction import Friction
 from holdfast.model.arm.model import Arm
 from holdfast.model.failure_modes.sets import read_joint_set
 
@@ -127,8 +128,8 @@ def power_loss_along(
             f"joint '{arm.joint_names[joint]}' moves at {speeds[row, joint]:.4g} rad/s at {instants[row]:g} s; if q is in "
             "degrees, convert it to rad"
         )
-    boards = getattr(options.get("friction"), "boards", None)
-    free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free"), boards))
+    friction: Friction = options.get("friction") or Friction()
+    free = np.isin(np.arange(arm.n), read_joint_set(arm, options.get("free"), friction.boards))
 
     def simulate(rows: FloatArray, row_rates: FloatArray) -> PowerLoss:
         return power_loss(arm, rows, row_rates * free, **options).require_ok()

@@ -15,12 +15,6 @@ from holdfast.model.collision.capsules import BASE_LINK, Capsules, Point
 DropOf = Literal["tool", "any point"]
 
 
-def find_down_direction(arm: Arm) -> FloatArray:
-    """Return the unit vector (3,) along gravity in the world; minus z without gravity."""
-    norm = float(np.linalg.norm(arm.gravity))
-    return arm.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
-
-
 @dataclass(frozen=True)
 class DropPoints:
     """Points that move with the links of an arm.
@@ -56,9 +50,9 @@ class DropPoints:
 
     def depths(self, arm: Arm, q: FloatArray) -> FloatArray:
         """Return the coordinates (..., P) of the points along gravity, m, in configurations (..., n)."""
-        frames, down = arm.frames(q.reshape(-1, arm.n))[:, np.add(self.links, 1)], find_down_direction(arm)
+        frames = arm.frames(q.reshape(-1, arm.n))[:, np.add(self.links, 1)]
         points = np.einsum("nkij,kj->nki", frames[..., :3, :3], np.array(self.positions)) + frames[..., :3, 3]
-        return np.asarray(points @ down).reshape(*q.shape[:-1], len(self.links))
+        return np.asarray(points @ arm.down).reshape(*q.shape[:-1], len(self.links))
 
     def drops(self, arm: Arm, start: FloatArray, q: FloatArray) -> FloatArray:
         """Return the displacements (...) along gravity, m, of the points that drop most from ``start`` (..., n) to ``q``."""

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import casadi as ca
 
-from holdfast.control.falls.drop_points import DropPoints, find_down_direction
+from holdfast.control.falls.drop_points import DropPoints
 from holdfast.control.simulation.system import LARGE_NUMBER, ColumnLayout, ParameterLayout, elementwise_min, make_state_loop
 from holdfast.core.caching import cached_property
 from holdfast.kernels.disk_cache import cached_kernel
@@ -76,7 +76,7 @@ class PassiveArm:
     def drop(self, q: SX) -> SX:
         """Return the displacement along gravity, m, of the point that has dropped most."""
         rotation, position = kinematics.split_transform(self.arm.base)
-        down, depths = ca.SX(find_down_direction(self.arm)), []
+        down, depths = ca.SX(self.arm.down), []
         depth, down = ca.dot(down, position), rotation.T @ down  # of the origin of a frame, and in its axes
         steps = kinematics.joint_transforms(self.arm, q)
         for link, (joint, step) in enumerate(zip(self.arm.joints, steps, strict=True)):

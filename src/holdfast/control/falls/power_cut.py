@@ -78,8 +78,8 @@ def power_loss(
         step: Longest time step, s, at most 0.02 s.
         accuracy: Largest ``error`` of a fall, m. The step of a fall is halved up to 6 times to reach it; falls that do not
             reach it have the status ``INACCURATE``. Default: the step is not changed.
-        of: Point whose drop is computed: ``tool``, or ``any point``: the one that drops most, of the tool point and the centers
-            of the spheres that cover the links in the collision model.
+        of: Point whose drop is computed: ``tool``; or ``any point`` for the one that drops most, of the tool point and the
+            centers of the spheres that cover the links in the collision model.
 
     Returns:
         A :class:`holdfast.PowerLoss`. A row with NaN has the status ``BAD_INPUT``.
@@ -92,7 +92,7 @@ def power_loss(
     Source: Moreau 1988 for the steps with dry friction and impacts.
     """
     starts, start_rates, is_single = _check_states(arm, q, rates)
-    joints = read_joint_set(arm, free, None if friction is None else friction.boards)
+    joints = read_joint_set(arm, free, (friction or Friction()).boards)
     _check_options(restitution, duration, step, accuracy)
     require_possible_inertia(arm)
     is_free = np.zeros(arm.n)

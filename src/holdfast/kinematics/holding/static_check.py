@@ -120,7 +120,7 @@ def holds(
             a configuration is outside the limits; the message names the joint.
     """
     rows, single = as_configurations(arm, q)
-    joints = np.array(read_joint_set(arm, free, None if friction is None else friction.boards))
+    joints = np.array(read_joint_set(arm, free, (friction or Friction()).boards))
     if not 0 <= effort <= 1:
         raise InputError(f"effort is {effort:g}; it must be a fraction from 0 to 1, for example 0.35 for 35 %")
     joint_friction = (friction or Friction()).of_joints(arm)

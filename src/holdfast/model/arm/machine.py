@@ -350,6 +350,12 @@ class ArmData:
         travels = [max(abs(j.lower), abs(j.upper)) for j in self.joints if j.prismatic]
         return size + sum(x for x in travels if np.isfinite(x))
 
+    @property
+    def down(self) -> FloatArray:
+        """Unit vector (3,) along gravity in the world; minus z without gravity."""
+        norm = float(np.linalg.norm(self.gravity))
+        return self.gravity / norm if norm > 0 else np.array([0.0, 0.0, -1.0])
+
     @cached_property
     def fingerprint(self) -> str:
         """SHA-256 of the numbers that define the arm, without its name and source; equal arms have equal fingerprints."""

@@ -131,22 +131,26 @@ def read_joint_set(arm: Arm, joints: JointSet, boards: Mapping[str, Sequence[str
     """
     if joints is None:
         return tuple(range(arm.n))
-    parts = [part.strip() for part in joints.replace(";", ",").split(",")] if isinstance(joints, str) else joints
+    if isinstance(joints, str):
+        texts = [text.strip() for text in joints.replace(";", ",").split(",") if text.strip()]
+        joints = [text if _is_board(arm, text) else read_joint(arm, text) for text in texts]
     named: list[str | int] = []
-    for part in parts:
-        if isinstance(part, str) and part.startswith("board:") and part not in arm.joint_names:
-            board = part.removeprefix("board:").strip()
-            if boards is None or board not in boards:
-                raise InputError(
-                    f"board '{board}' is unknown; the boards of the friction are {', '.join(boards or ()) or 'none'}"
-                )
-            named += boards[board]
-        elif part != "" or not isinstance(joints, str):
-            named.append(read_joint(arm, part) if isinstance(joints, str) and isinstance(part, str) else part)
+    for part in joints:
+        if not _is_board(arm, part):
+            named.append(part)
+            continue
+        board = str(part).removeprefix("board:").strip()
+        if boards is None or board not in boards:
+            raise InputError(f"board '{board}' is unknown; the boards of the friction are {', '.join(boards or ()) or 'none'}")
+        named += boards[board]
     indices = sorted(set(arm.joint_indices(named)))
     if not indices:
         raise InputError(f"no joint of '{arm.name}' is named; name at least one, or leave the joints out for all")
     return tuple(indices)
+
+
+def _is_board(arm: Arm, name: str | int) -> bool:
+    return isinstance(name, str) and name.startswith("board:") and name not in arm.joint_names
 
 
 def read_failures(arm: Arm, text: str) -> FailureSpec:

@@ -42,7 +42,9 @@ def command(
     ] = None,
     samples: Annotated[int, "Number of random configurations."] = 20_000,
     seed: SeedOption = 1,
-    of: Annotated[str, "Point whose drop is computed: 'tool', or 'any point' of the links that falls most."] = "tool",
+    of: Annotated[
+        str, "Point whose drop is computed: 'tool', or 'any point' for the point of the arm that drops most."
+    ] = "tool",
     rates: Annotated[str | None, "Joint rates at the power loss in rad/s and m/s. Default: the arm is at rest."] = None,
     free: FreeOption = None,
     friction: FrictionOptions = FrictionOptions(),

@@ -115,8 +115,7 @@ def scene(
         raise InputError(f"colors are {len(point_colors)} and points {len(point_array)}; give as many")
     size = stretched_length(arm)
     body_parts, mesh_note = build_body(arm, size, mesh_files) if meshes else (build_stick_parts(arm, size), "")
-    gravity_norm = float(np.linalg.norm(arm.gravity))
-    up = np.array([0.0, 0.0, 1.0]) if gravity_norm == 0 else -arm.gravity / gravity_norm + 0.0
+    up = 0.0 - arm.down  # without negative zeros
     lost_directions = (
         []
         if moving or not lost

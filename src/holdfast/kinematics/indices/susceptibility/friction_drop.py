@@ -46,8 +46,7 @@ class FrictionToolDrop(NumericObjective):
         q, a = kinematics.joint_symbols(self.arm), ca.SX.sym("a", self.arm.n)
         torques = statics.gravity_torques(self.arm, statics.composite_bodies(self.arm, q))
         inertia = statics.inertia_matrix(self.arm, q)
-        down = ca.DM(self.arm.gravity / (float(np.linalg.norm(self.arm.gravity)) or 1.0))
-        to_tool = kinematics.world_jacobian(self.arm, q)[:3, :].T @ down
+        to_tool = kinematics.world_jacobian(self.arm, q)[:3, :].T @ ca.DM(self.arm.down)
         slopes = (ca.jacobian(torques, q), ca.jacobian(inertia @ a, q), ca.jacobian(to_tool, q).T @ a)
         return Kernel("start of a fall", [q, a], [ca.densify(term) for term in (torques, to_tool, inertia, *slopes)])
 

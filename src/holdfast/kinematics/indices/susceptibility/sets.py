@@ -77,8 +77,7 @@ def _release_rate(arm: Arm, q: SX, accelerations: SX) -> SX:
 
 
 def _tool_acceleration(arm: Arm, q: SX, accelerations: SX) -> SX:
-    downward = arm.gravity / (float(np.linalg.norm(arm.gravity)) or 1.0)
-    return ca.dot(ca.DM(downward), kinematics.world_jacobian(arm, q)[:3, :] @ accelerations)
+    return ca.dot(ca.DM(arm.down), kinematics.world_jacobian(arm, q)[:3, :] @ accelerations)
 
 
 def _last_two(arm: Arm, task: object) -> tuple[str, ...]:
