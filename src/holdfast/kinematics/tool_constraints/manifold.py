@@ -31,6 +31,8 @@ _CONE_FRACTION = 0.9  # of a cone's opening: axes outside are projected to there
 _PROJECTION_STEPS = 12  # steps
 _MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one step
 _MAX_PIECE_BISECTIONS = 8  # bisections, until a segment that is not proved counts as a violation
+_NO_BOUND = 1e300  # of a slope; an infinite number times 0 would be undefined
+_PARALLEL_TOLERANCE = 1e-10  # largest sine of the angle of two axes that count as parallel
 
 
 class ConstraintManifold:
@@ -44,6 +46,8 @@ class ConstraintManifold:
 
     Attributes:
         has_equalities: True if some row is exact, so that no straight segment of joint space meets it for long.
+        changing_joints: (n,) True for moving joints that change an error. A joint about a vertical axis at the base, or about
+            the tool's axis at the end, does not change the tilt of the tool.
     """
 
     def __init__(
@@ -73,6 +77,19 @@ class ConstraintManifold:
         self._bounds = np.array(bounds)
         self._slack = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
         self.has_equalities = any(is_equality)
+        self.changing_joints = self._find_changing_joints()
+
+    def _find_changing_joints(self) -> BoolArray:
+        """Return (n,) False for locked joints, and for the first and last moving joint if no error depends on them."""
+        changing, moving, q = self.free.copy(), np.flatnonzero(self.free), self._low[None].copy()
+        q[~np.isfinite(q)] = 0.0
+        if not moving.size or any(constraint.turned or len(constraint.normals) for constraint in self.keep):
+            return changing
+        joint_axes, rotation = self.arm.jacobian(q)[0, 3:].T, self.arm.forward_kinematics(q)[0, :3, :3]
+        first_axes, last_axes = ([getattr(constraint, name) for constraint in self.keep] for name in ("direction", "axis"))
+        for joint, axes in ((moving[0], first_axes), (moving[-1], last_axes @ rotation.T)):
+            changing[joint] = np.abs(np.cross(joint_axes[joint], axes)).max() > _PARALLEL_TOLERANCE
+        return changing
 
     # ---- margins -----------------------------------------------------------------------------------------------------
 
@@ -124,6 +141,36 @@ class ConstraintManifold:
             if constraint.turned or constraint.direction is not None:
                 bounds.append((np.sqrt(2) if constraint.turned else 1.0) * (joint_travel @ self._revolute))
         return np.stack(bounds, axis=1)
+
+    def are_boxes_violated(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where a constraint is violated at every configuration within ``half_widths`` (n,) of q (N, n)."""
+        half_widths = np.where(self.changing_joints, half_widths, 0.0)[None]
+        poses = self.arm.forward_kinematics(q)
+        margins = self._bounds - self._error_lengths(poses)
+        slopes = self._error_slopes(poses, self.arm.jacobian(q))
+        changes = np.minimum(
+            self.bound_changes(half_widths), np.abs(slopes) @ half_widths[0] + self.bound_curvature(half_widths) / 2
+        )
+        return np.asarray((margins + changes < -2 * _ROUNDING_M_RAD).any(axis=1))
+
+    def _error_slopes(self, poses: FloatArray, jacobians: FloatArray) -> FloatArray:
+        """Return the slopes (N, R, n) of the lengths of the error vectors; without a bound where an axis points away."""
+        slopes = []
+        for constraint in self.keep:
+            assert constraint.pose is not None
+            if len(constraint.normals):
+                offset = (poses[:, :3, 3] - constraint.pose[:3, 3]) @ constraint.normals.T @ constraint.normals
+                slopes.append(_unit_vectors(offset)[:, None] @ jacobians[:, :3])
+            if constraint.turned:
+                rotation = np.cross(poses[:, :3, :3], constraint.pose[:3, :3], axisa=1, axisb=0).sum(axis=1)
+                length = np.linalg.norm(poses[:, :3, :3] - constraint.pose[:3, :3], axis=(1, 2))
+                slopes.append(-(rotation / np.maximum(length, 1e-12)[:, None])[:, None] @ jacobians[:, 3:])
+            elif constraint.direction is not None:
+                axis = poses[:, :3, :3] @ constraint.axis
+                cosine = (axis @ constraint.direction)[:, None]
+                rotation = np.cross(axis, _unit_vectors(axis - cosine * constraint.direction))
+                slopes.append(np.where(cosine[:, None] > 0, rotation[:, None] @ jacobians[:, 3:], _NO_BOUND))
+        return np.concatenate(slopes, axis=1)
 
     def prove_edges(self, a: FloatArray, b: FloatArray, deviation: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
@@ -236,6 +283,11 @@ def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArra
     return np.where(outside, angle - _CONE_FRACTION * constraint.angle, 0.0)[:, None], np.where(
         outside[:, None], rotation_axis, 0.0
     )[:, None, :]
+
+
+def _unit_vectors(vectors: FloatArray) -> FloatArray:
+    """Return vectors (N, 3) with length 1, or shorter if they are nearly 0."""
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12))
 
 
 def _perpendicular_vectors(axis: FloatArray) -> FloatArray:

@@ -31,7 +31,7 @@ from holdfast.response.recovery.proofs.reach import (
 )
 from holdfast.response.recovery.proofs.separation import prove_goal_disconnected
 from holdfast.response.recovery.recovery import Leg, ProofKind, Recovery, RecoveryOutcome
-from holdfast.response.recovery.routes import Route, find_route
+from holdfast.response.recovery.routes import BRIEF_ROUNDS, MAX_ROUNDS, Route, find_route
 
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
@@ -193,19 +193,24 @@ class RecoveryAttempt:
         self._add_leg("along the path", motion, float(self.search.metric.measure_length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
-    def _search_route(self, q_current: FloatArray, goals: FloatArray, repeat_count: int = 0) -> Route | None:
+    def _search_route(
+        self, q_current: FloatArray, goals: FloatArray, repeat_count: int = 0, max_rounds: int = MAX_ROUNDS
+    ) -> Route | None:
         search_count, max_failures = (
             (repeat_count, None) if repeat_count else (self.search_count, self._search_count_before_proof)
         )
+        space, metric = self.search.space, self.search.metric
         return find_route(
-            self.search.space, self.search.metric, q_current, goals, search_count, self.rng, max_failures=max_failures
+            space, metric, q_current, goals, search_count, self.rng, max_failures=max_failures, max_rounds=max_rounds
         )
 
     def _find_route_or_proof(
         self, q_current: FloatArray, goals: FloatArray, poses: FloatArray, q_goal: FloatArray | None = None
     ) -> tuple[Route | None, tuple[str, bool] | None]:
         """Find a route, or a proof that there is none; the proof is tried after the first failed searches."""
-        route = self._search_route(q_current, goals)
+        further_searches = self.search_count - self._search_count_before_proof
+        is_brief = self.search.space.manifold is not None and further_searches > 0
+        route = self._search_route(q_current, goals, max_rounds=BRIEF_ROUNDS if is_brief else MAX_ROUNDS)
         if route is not None:
             return route, None
         proof = prove_goal_disconnected(
@@ -217,8 +222,8 @@ class RecoveryAttempt:
             poses=poses,
             q_goal=q_goal,
         )
-        if proof is None and self.search.space.manifold is None and self.search_count > self._search_count_before_proof:
-            route = self._search_route(q_current, goals, self.search_count - self._search_count_before_proof)
+        if proof is None and further_searches > 0:
+            route = self._search_route(q_current, goals, further_searches)
         return route, proof
 
     def _move_to_goal(self, q_start: FloatArray, target: RecoveryGoal) -> Recovery:

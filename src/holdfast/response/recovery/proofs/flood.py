@@ -11,8 +11,7 @@ objects for every angle of the wrist, or a gripper next to a forearm. The other 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from copy import copy
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import TYPE_CHECKING
@@ -23,17 +22,14 @@ from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.interval_search.boxes import Blocked
 from holdfast.kinematics.solvers import joint_space
-from holdfast.model.arm.model import Arm
 from holdfast.model.arm.poses import rotation_vectors
-from holdfast.model.cell.solids import PrimitiveSolid
-from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.clearance import Clearance
-from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.response.recovery.proofs.blocked_cells import BlockedCells, LinkPoints
 from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import TaskRows
 
 if TYPE_CHECKING:
-    from holdfast.model.collision.exact.narrow_phase import ArmBody
+    pass
 
 CellTest = Callable[[FloatArray, FloatArray], BoolArray]
 """Test that returns True where cells with these middles (N, n) and half widths (n,) may contain a configuration of the goal."""
@@ -42,14 +38,12 @@ _MAX_JOINTS = 3  # largest number of moving joints
 _INITIAL_CELLS_PER_JOINT = 8  # cells of each joint at first
 _MAX_CELLS = {1: 20_000, 2: 80_000, 3: 120_000}  # evaluated cells, by the number of joints
 _ROUNDING_SLACK = 1e-9  # rounding error, m and rad
-_SQUARE_ROOT_SLACK_M = 1e-7  # rounding error of a square root where two squares cancel, m
-_BALLS_PER_BODY = 24  # balls along a body
 _CHUNK_ROWS = 4096
-_SAMPLED_CONFIGURATIONS = 64  # random configurations
 _MAX_CONFINED_CELLS = 25_000  # evaluated cells over some of more than three joints
-_MAX_PENETRATION_M = 0.15  # hardly any ball is deeper in an object, m
 _MAX_CONFINED_JOINTS = 2  # joints of a flood in which the other joints may have any value
 _MAX_CONFINED_FLOODS = 2  # such floods over the same joints
+_MAX_CONSTRAINED_JOINTS = 4  # joints of a flood of all configurations that meet the tool constraints
+_MAX_CONSTRAINED_CELLS = 200_000  # evaluated cells of such a flood
 
 
 def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:
@@ -60,30 +54,36 @@ def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellT
     joints = np.flatnonzero(space.free)
     if len(joints) > _MAX_JOINTS or (space.manifold is None and space.clearance is None):
         return None
-    for flood in _generate_connected_regions(space, start, joints, _BlockedCells(space)):
+    for flood in _generate_connected_regions(space, start, joints, BlockedCells(space)):
         if not may_hold_goal(flood.middle, flood.half_widths).any():
             return flood.proof_sentence
     return None
 
 
 def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[ConnectedCells]:
-    """Yield floods over one or two of more than three moving joints that are confined for any values of the other joints.
+    """Yield floods over some of more than three moving joints that are confined for any values of the other joints.
 
-    They are over joints between two links that may touch each other, and over the first two, whose links touch objects. Only
-    floods that contain none of the known configurations (K, n) of the goal are yielded, at most two over the same joints.
+    They are over the joints that change the errors of tool constraints, over one or two joints between two links that may touch
+    each other, and over the first two, whose links touch objects. Only floods that contain none of the known configurations
+    (K, n) of the goal are yielded, at most two over the same joints.
     """
-    if space.clearance is None or space.free.sum() <= _MAX_JOINTS:
+    if space.free.sum() <= _MAX_JOINTS:
         return
-    blocked, joints = _BlockedCells(space), np.flatnonzero(space.free)
-    self_blocked, first_joints = blocked.self_blocked, joints[:_MAX_CONFINED_JOINTS]
-    attempts: list[tuple[IndexArray, Blocked]] = [(first_joints, blocked.restrict_to_joints(first_joints))]
-    if self_blocked is not None:
-        attempts = [
-            (flood_joints, self_blocked.are_boxes_self_colliding)
+    blocked, joints = BlockedCells(space), np.flatnonzero(space.free)
+    attempts: list[tuple[IndexArray, Blocked, int]] = []
+    if space.manifold is not None:
+        constrained_joints = np.flatnonzero(space.manifold.changing_joints)
+        if 0 < len(constrained_joints) <= _MAX_CONSTRAINED_JOINTS:
+            attempts.append((constrained_joints, blocked.are_blocked_without_objects, _MAX_CONSTRAINED_CELLS))
+    if space.clearance is not None and blocked.self_blocked is not None:
+        attempts += [
+            (flood_joints, blocked.self_blocked.are_boxes_self_colliding, _MAX_CONFINED_CELLS)
             for flood_joints in _joint_sets_between_links(space.clearance, joints)
-        ] + attempts
-    for flood_joints, is_blocked in attempts:
-        floods = _generate_connected_regions(space, start, flood_joints, is_blocked, _MAX_CONFINED_CELLS)
+        ]
+        first_joints = joints[:_MAX_CONFINED_JOINTS]
+        attempts.append((first_joints, blocked.restrict_to_joints(first_joints), _MAX_CONFINED_CELLS))
+    for flood_joints, is_blocked, max_cells in attempts:
+        floods = _generate_connected_regions(space, start, flood_joints, is_blocked, max_cells)
         yield from islice(
             (flood for flood in floods if flood.excludes_boxes(known_goals, np.zeros_like(known_goals)).all()),
             _MAX_CONFINED_FLOODS,
@@ -226,7 +226,7 @@ def make_pose_test(
     is_translation = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0
     linear_rows = rows.matrix[is_translation, :3]
     full_orientation = int(np.linalg.matrix_rank(rows.matrix[is_rotation, 3:])) == 3 if is_rotation.any() else False
-    tool_point = _LinkPoints(np.array([arm.n - 1]), arm.tool[None, :3, 3])
+    tool_point = LinkPoints(np.array([arm.n - 1]), arm.tool[None, :3, 3])
 
     def may_hold_pose(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
         frames = arm.frames(middle)
@@ -283,117 +283,3 @@ def _connect_cells(cells: IndexArray, holds_start: BoolArray, cells_per_joint: i
         coo_array((np.ones(len(row_indices)), (row_indices, column_indices)), shape=(len(cells),) * 2), directed=False
     )
     return np.isin(labels, labels[holds_start])
-
-
-@dataclass(frozen=True)
-class _LinkPoints:
-    """Points that move with the links of an arm.
-
-    Attributes:
-        link: (P,) index of the joint that moves each point, from 0.
-        local_positions: (P, 3) positions in the frame of the joint, m.
-    """
-
-    link: IndexArray
-    local_positions: FloatArray
-
-    def world_positions(self, frames: FloatArray) -> FloatArray:
-        """Return the positions (N, P, 3) in the world, m."""
-        positions = np.empty((len(frames), len(self.link), 3))
-        for link in np.unique(self.link):
-            on_link, pose = self.link == link, frames[:, link + 1]
-            positions[:, on_link] = self.local_positions[on_link] @ pose[:, :3, :3].transpose(0, 2, 1) + pose[:, None, :3, 3]
-        return positions
-
-    def bound_motion(
-        self, arm: Arm, frames: FloatArray, half_widths: FloatArray, positions: FloatArray | None = None
-    ) -> FloatArray:
-        """Return (N, P) upper bounds of the motion of each point where joints move by up to ``half_widths`` (n,), m.
-
-        From the tool inwards, a point is no farther from axis k than its present distance plus its motion by joints beyond k.
-        """
-        positions = self.world_positions(frames) if positions is None else positions
-        motion_bounds = np.zeros((len(frames), len(self.link)))
-        for joint_index in range(arm.n - 1, -1, -1):
-            moved_points = np.flatnonzero(self.link >= joint_index)
-            if half_widths[joint_index] == 0 or not moved_points.size:
-                continue
-            if arm.prismatic[joint_index]:
-                motion_bounds[:, moved_points] += half_widths[joint_index]
-                continue
-            offsets = positions[:, moved_points] - frames[:, joint_index + 1, None, :3, 3]
-            axial_components = offsets @ (frames[:, joint_index + 1, :3, :3] @ arm.joints[joint_index].axis)[..., None]
-            axis_distances = (
-                np.sqrt(np.maximum(np.square(offsets).sum(axis=2) - axial_components[..., 0] ** 2, 0.0)) + _SQUARE_ROOT_SLACK_M
-            )
-            motion_bounds[:, moved_points] += (axis_distances + motion_bounds[:, moved_points]) * half_widths[joint_index]
-        return motion_bounds
-
-
-class _BlockedCells:
-    """Test whether cells are certainly blocked."""
-
-    def __init__(self, space: FreeSpace) -> None:
-        from holdfast.model.collision.exact.bodies import inner_primitives  # imports scipy
-
-        self._space = space
-        obstacles = None if space.clearance is None else space.clearance.obstacles
-        parts: Sequence[ArmBody] = [] if obstacles is None or space.clearance is None else space.clearance.exactness.parts
-        ball_rows = [
-            (part.link, *ball) for part in parts if part.link > BASE_LINK and part.known for ball in _list_body_balls(part)
-        ]
-        self._radii = np.array([radius for _, _, radius in ball_rows])
-        self._points = _LinkPoints(
-            np.array([link for link, _, _ in ball_rows]), np.array([centre for _, centre, _ in ball_rows]).reshape(-1, 3)
-        )
-        self._objects: list[tuple[PrimitiveSolid, float, BoolArray]] = []
-        for index, solid in enumerate(() if obstacles is None else obstacles.cell):
-            assert obstacles is not None
-            is_ignored = obstacles.may_touch[self._points.link + 1, index] if len(ball_rows) else np.zeros(0, dtype=bool)
-            self._objects += [(inner, obstacles.cell.margin_of(solid), is_ignored) for inner in inner_primitives(solid)]
-        clearance = space.clearance
-        self.self_blocked = None if clearance is None else BlockedBoxes(clearance, space.margin, (space.low, space.high))
-
-    def restrict_to_joints(self, joints: IndexArray) -> _BlockedCells:
-        """Return this test without the balls that the other joints always move too far for a proof."""
-        space, half_widths = self._space, (self._space.high - self._space.low) / 2
-        half_widths[joints] = 0.0
-        frames = space.arm.frames(space.sample(_SAMPLED_CONFIGURATIONS, np.random.default_rng(0)))
-        is_useful = self._points.bound_motion(space.arm, frames, half_widths).min(axis=0) < self._radii + _MAX_PENETRATION_M
-        restricted = copy(self)
-        restricted._points = _LinkPoints(self._points.link[is_useful], self._points.local_positions[is_useful])
-        restricted._radii = self._radii[is_useful]
-        restricted._objects = [(solid, margin, is_ignored[is_useful]) for solid, margin, is_ignored in self._objects]
-        return restricted
-
-    def __call__(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
-        """Return (N,) True where every configuration within ``half_widths`` (N, n), all rows equal, of q (N, n) is blocked."""
-        joint_half_widths = half_widths[0]
-        space, is_blocked = self._space, np.zeros(len(q), dtype=bool)
-        if space.manifold is not None:
-            is_blocked |= (
-                space.manifold.constraint_margins(q) + space.manifold.bound_changes(joint_half_widths[None]) < -_ROUNDING_SLACK
-            ).any(axis=1)
-        if self.self_blocked is not None:
-            is_blocked |= self.self_blocked.are_boxes_self_colliding(q, half_widths)
-        if not self._objects or not len(self._radii):
-            return is_blocked
-        frames = space.arm.frames(q)
-        positions = self._points.world_positions(frames)
-        reach_bounds = self._points.bound_motion(space.arm, frames, joint_half_widths, positions) - self._radii
-        for solid, margin, is_ignored in self._objects:
-            distances = np.where(is_ignored, np.inf, solid.signed_distance(positions) + reach_bounds)
-            is_blocked |= distances.min(axis=1) < margin + space.margin - _ROUNDING_SLACK
-        return is_blocked
-
-
-def _list_body_balls(part: ArmBody) -> list[tuple[FloatArray, float]]:
-    """Return centers (3,) in the frame of the link and radii, m, of balls inside a body, closer together in round bodies."""
-    body = part.body
-    centers, radii = body.inner_spheres
-    if body.kind in ("capsule", "cylinder") and len(radii) > 1:
-        centers = np.linspace(centers[0], centers[-1], _BALLS_PER_BODY)
-        radii = np.full(_BALLS_PER_BODY, radii[0])
-    return [
-        (body.pose[:3, :3] @ center + body.pose[:3, 3], float(radius)) for center, radius in zip(centers, radii, strict=True)
-    ]
