@@ -21,8 +21,9 @@ _DROPPED_LINES = (";", "source_filename", "target ", "attributes ", "!")
 _DROPPED_MARKS = r", !\w+(\.\w+)* !\d+| #\d+| local_unnamed_addr| dso_local| mustprogress|\s*; preds = .*"
 
 
-def first_line(source: bytes) -> str:
+def first_line() -> str:
     """Return the first line of the result, by which a test finds out whether the source has changed since."""
+    source = b"".join(path.read_bytes() for path in sorted(SOURCE.parent.glob("*.[ch]pp")))
     return f"; From route_search.cpp, SHA-256 {hashlib.sha256(source).hexdigest()}, by tools/native.py. Do not edit."
 
 
@@ -30,7 +31,7 @@ def compile_source() -> str:
     """Return the text of the compiled source."""
     text = subprocess.run([*COMMAND.split(), str(SOURCE)], check=True, capture_output=True, text=True).stdout
     lines = [re.sub(_DROPPED_MARKS, "", line) for line in text.splitlines() if not line.startswith(_DROPPED_LINES)]
-    return "\n".join([first_line(SOURCE.read_bytes()), *lines]) + "\n"
+    return "\n".join([first_line(), *lines]) + "\n"
 
 
 if __name__ == "__main__":

@@ -105,6 +105,114 @@ def test_the_curvature_is_a_bound(rng):
     assert (np.linalg.norm(second[:, :3, :3], axis=(1, 2)) <= bound[:, 1] * (1 + 1e-3)).all()
 
 
+# ---- extensions and boxes ------------------------------------------------------------------------------------------------
+
+
+def draw_constraints(rng, start):
+    """One constraint of each kind, with cones and without, through a pose (4, 4) at the start."""
+    normal, axis = rng.normal(size=(2, 3))
+    direction = start[:3, :3] @ axis
+    kept = [
+        tool_constraints.upright(0.3, axis=axis, direction=direction),
+        tool_constraints.upright(0.0, axis=axis, direction=direction),
+        tool_constraints.rail(normal),
+        tool_constraints.plane(normal, frame="tool", within=(0.05, 0.05)),
+    ]
+    turned = replace(kept[3], normals=np.zeros((0, 3)), turned=True, name="turned")
+    return [constraint.anchor(start) for constraint in (*kept, turned)]
+
+
+def hold(constraints, poses, slack=1e-7):
+    return all(
+        (away <= constraint.within[0] + slack).all() and (turned <= constraint.widest + slack).all()
+        for constraint in constraints
+        for away, turned in [constraint.distances(poses)]
+    )
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("types", ["RRRRRRR", "RPRRCR"])
+def test_extensions_come_nearer_and_hold_all_along(types, rng):
+    arm = oracles.random_arm(rng, types=types, limits=2.5)
+    scale, free = rng.uniform(0.5, 2.0, arm.n), rng.uniform(size=arm.n) < 0.8
+    arrived = came_nearer = 0
+    for q in oracles.inside(arm, rng, 6):
+        kinds = draw_constraints(rng, arm.forward_kinematics(q))
+        for constraints in ([kinds[0]], [kinds[1]], [kinds[2]], [kinds[4]], [kinds[0], kinds[3]]):
+            limits = np.where(free, arm.lower, q), np.where(free, arm.upper, q)
+            manifold = ConstraintManifold(arm, constraints, free, limits)
+            targets = q + np.where(free, rng.normal(0, 0.4, (12, arm.n)), 0.0)
+            targets[:6] = manifold.project(np.clip(targets[:6], *limits))
+            may_arrive = manifold.is_satisfied(targets) & ((targets >= limits[0]) & (targets <= limits[1])).all(axis=1)
+            is_largest = bool(rng.integers(2))
+            paths, has_arrived = manifold.compiled.extend_paths(
+                np.repeat(q[None], 12, axis=0),
+                targets,
+                may_arrive,
+                scale=scale,
+                has_largest_joint_metric=is_largest,
+                edges=None,
+                resolution=1e-3,
+            )
+            arrived += has_arrived.sum()
+            for path, target, is_there in zip(paths, targets, has_arrived, strict=True):
+                points = np.concatenate([q[None], path])
+                distances = np.linalg.norm((target - points) * scale, ord=np.inf if is_largest else 2, axis=1)
+                assert (np.diff(distances) < 0).all()
+                came_nearer += len(path) > 0
+                assert not is_there or (path[-1] == target).all()
+                assert ((points >= limits[0] - 1e-12) & (points <= limits[1] + 1e-12)).all()
+                dense = np.concatenate([a + np.linspace(0, 1, 9)[:, None] * (b - a) for a, b in pairwise(points)] or [points])
+                assert hold(constraints, oracles.forward(arm, dense))
+    assert arrived > 60
+    assert came_nearer > 200
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("types", ["RRRRR", "RPRRC"])
+def test_no_box_with_a_configuration_that_is_allowed_is_left_out(types, rng):
+    arm = oracles.random_arm(rng, types=types, limits=2.5)
+    left_out = tried = 0
+    for q in oracles.inside(arm, rng, 8):
+        for constraint in draw_constraints(rng, arm.forward_kinematics(q)):
+            manifold = ConstraintManifold(arm, [constraint], np.ones(arm.n, dtype=bool), (arm.lower, arm.upper))
+            half = rng.uniform(0, rng.choice([0.02, 0.1, 0.3]), arm.n)
+            allowed = manifold.project(q + rng.normal(0, 0.5, (30, arm.n)))
+            allowed = allowed[manifold.is_satisfied(allowed)]
+            middle = allowed + rng.choice([-1.0, 1.0, 0.5], allowed.shape) * half
+            assert not manifold.are_boxes_violated(middle, half).any()
+            anywhere = oracles.inside(arm, rng, 50)
+            inside = (anywhere[:, None] + half * rng.uniform(-1, 1, (50, 200, arm.n))).reshape(-1, arm.n)
+            is_met = manifold.is_satisfied(inside).reshape(50, 200).any(axis=1)
+            is_left_out = manifold.are_boxes_violated(anywhere, half)
+            assert not (is_met & is_left_out).any()
+            left_out, tried = left_out + is_left_out.sum(), tried + 50
+    assert left_out > 0.5 * tried
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_first_and_last_joints_that_do_not_change_a_tilt(panda, tilted, rng):
+    direction = [0.0, 0.1, -1.0] if tilted else [0.0, 0.0, -1.0]
+    q = pointing_down(panda, [1.92, 1.35, 2.63, -1.39, -1.44, 0.5, 0.98])
+    constraint = tool_constraints.upright(0.3, direction=direction).anchor(panda.forward_kinematics(q))
+    free = np.array([True, True, False, True, True, True, True])
+    limits = np.where(free, panda.lower, q), np.where(free, panda.upper, q)
+    manifold = ConstraintManifold(panda, [constraint], free, limits)
+    assert manifold.changing_joints.tolist() == [tilted, True, False, True, True, True, False]
+    other = rng.uniform(*limits, (50, 7))
+    turned = np.where(manifold.changing_joints | ~free, other, rng.uniform(*limits, (50, 7)))
+    np.testing.assert_allclose(manifold.constraint_margins(turned), manifold.constraint_margins(other), atol=1e-12)
+    rail = replace(constraint, normals=np.eye(3)[:1])
+    assert ConstraintManifold(panda, [constraint, rail], free, limits).changing_joints.tolist() == free.tolist()
+
+
+def test_too_many_constraints_are_refused(panda):
+    q = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.0])
+    keep = [tool_constraints.upright(0.3, direction=panda.forward_kinematics(q)[:3, 2])] * 9
+    with pytest.raises(InputError, match="27 rows; at most 64 joints and 24 rows"):
+        hf.recover(panda, ["panda_joint3"], q, goal=q + 0.1, task="pose", samples=0, clearance=False, keep=keep)
+
+
 # ---- motions -------------------------------------------------------------------------------------------------------------
 
 

@@ -16,15 +16,15 @@ from holdfast.model.arm.task import as_task, task_from_rows
 from holdfast.model.collision import Capsules
 from holdfast.response.recovery import RecoveryOutcome, attempt
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
+from holdfast.response.recovery.proofs.blocked_cells import BlockedCells, LinkPoints
 from holdfast.response.recovery.proofs.flood import (
     _generate_connected_regions,
-    _LinkPoints,
     find_confined_regions,
     make_configuration_test,
     make_pose_test,
     prove_disconnected,
 )
-from holdfast.response.recovery.space import FreeSpace
+from holdfast.response.recovery.space import FreeSpace, JointMetric
 from holdfast.response.recovery.task_rows import make_row_solver
 
 CELL = Path(__file__).parents[3] / "examples" / "cells" / "fail-active.yaml"
@@ -221,13 +221,65 @@ def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
     assert (missed | held).mean() > 0.8
 
 
+# ---- tool constraints ------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def crane():
+    """A yaw joint, three parallel pitch joints, and a roll joint: the tool points down where the pitch angles add up to 0."""
+    rows = [(0.0, np.pi / 2, 0.4), (0.4, 0.0, 0.0), (0.4, 0.0, 0.0), (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.1)]
+    return hf.Arm.from_dh([hf.DH(a=a, alpha=alpha, d=d, lower=-2.97, upper=2.97) for a, alpha, d in rows], name="crane")
+
+
+def test_upright_sheets_a_revolution_apart_are_proved_disconnected(crane):
+    start, goal = np.deg2rad([0, 60, -100, 40, 0]), np.deg2rad([70, 100, 130, 130, 20])
+    pose = crane.forward_kinematics(goal)
+    np.testing.assert_allclose(pose[:3, 2], [0, 0, -1], atol=1e-12)
+    # The pitch angles of both elbow solutions add up to 360 and -360 degrees; with the yaw joint turned round they add up to 0.
+    narrow = hf.Degraded(crane, ranges={"joint1": (-1.4, 1.4)})
+    asked = {"goal": pose, "clearance": False, "samples": 0, "tolerance": (1e-3, 1e-2)}
+    found = hf.recover(crane, narrow, start, keep="upright:5deg", **asked)
+    assert (found.verdict.answer, found.verdict.kind) == ("proved infeasible", "disconnected"), found.verdict
+    assert "joint2 and joint3 and joint4 that are connected" in found.verdict.why
+    assert hf.recover(crane, narrow, start, **asked).ok
+    assert hf.recover(crane, hf.Degraded(crane, ranges={"joint5": (-2.9, 2.9)}), start, keep="upright:5deg", **asked).ok
+
+
+def test_a_flood_along_a_constraint_contains_all_that_walks_reach(rng):
+    panda, keep = hf.arms.load("panda"), hf.tool_constraints.upright(np.deg2rad(3))
+    free, solver = np.arange(7) != 4, make_row_solver(panda, task_from_rows(["wx", "wy"], frame="tool"))
+    excluded = checked = 0
+    for locked in (2.25, -2.11, 0.4):
+        q = np.where(free, rng.uniform(panda.lower, panda.upper, (200, 7)), locked)
+        q = solver.solve(q, np.tile(np.diag([1.0, -1, -1, 1]), (200, 1, 1)), np.ones((200, 2)), free)
+        constraint = keep.anchor(np.diag([1.0, -1, -1, 1]))
+        limits = np.where(free, panda.lower, q[0]), np.where(free, panda.upper, q[0])
+        limited = replace(
+            panda, joints=tuple(replace(j, lower=a, upper=b) for j, a, b in zip(panda.joints, *limits, strict=True))
+        )
+        space = FreeSpace(limited, free, None, 0.0, q[:1], constraints=[constraint])
+        q = q[space.are_valid(q)]
+        metric, nodes = JointMetric.for_arm(panda, "travel", None, free), q[:1]
+        for _ in range(25):
+            sources = nodes[rng.integers(len(nodes), size=48)]
+            paths, _ = space.extend_paths(metric, sources, np.where(free, rng.normal(0, 1.5, sources.shape), 0.0))
+            nodes = np.concatenate([nodes, *paths])
+        joints, blocked = np.flatnonzero(space.manifold.changing_joints), BlockedCells(space).are_blocked_without_objects
+        assert joints.tolist() == [1, 2, 3, 5]
+        for flood in _generate_connected_regions(space, q[0], joints, blocked, 100_000):
+            assert not flood.excludes_boxes(nodes, np.zeros_like(nodes)).any()
+            is_excluded = flood.excludes_boxes(q, np.zeros_like(q))
+            excluded, checked = excluded + is_excluded.sum(), checked + len(q)
+    assert 0.05 * checked < excluded < 0.9 * checked
+
+
 # ---- bounds ----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.interpreted
 def test_no_point_moves_farther_than_its_bound(rng):
     arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
-    points = _LinkPoints(np.array([0, 2, 3, 5, 5]), rng.normal(0, 0.2, (5, 3)))
+    points = LinkPoints(np.array([0, 2, 3, 5, 5]), rng.normal(0, 0.2, (5, 3)))
     q = oracles.inside(arm, rng, 20)
     shares = []
     for size in (0.01, 0.1, 0.6):

@@ -17,6 +17,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
+from holdfast.kinematics.tool_constraints.compiled_manifold import CompiledManifold
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
@@ -30,7 +31,6 @@ _EQUALITY_TOLERANCE = 1e-8  # m and rad: error below which an exact row is met
 _CONE_FRACTION = 0.9  # of a cone's opening: axes outside are projected to there, which leaves a margin for the next segment
 _PROJECTION_STEPS = 12  # steps
 _MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one step
-_MAX_PIECE_BISECTIONS = 8  # bisections, until a segment that is not proved counts as a violation
 _NO_BOUND = 1e300  # of a slope; an infinite number times 0 would be undefined
 _PARALLEL_TOLERANCE = 1e-10  # largest sine of the angle of two axes that count as parallel
 
@@ -46,6 +46,7 @@ class ConstraintManifold:
 
     Attributes:
         has_equalities: True if some row is exact, so that no straight segment of joint space meets it for long.
+        compiled: Compiled proofs and extensions.
         changing_joints: (n,) True for moving joints that change an error. A joint about a vertical axis at the base, or about
             the tool's axis at the end, does not change the tilt of the tool.
     """
@@ -75,8 +76,9 @@ class ConstraintManifold:
                 bounds.append(np.sin(constraint.widest))
                 is_equality.append(constraint.angle == 0)
         self._bounds = np.array(bounds)
-        self._slack = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
         self.has_equalities = any(is_equality)
+        slacks = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
+        self.compiled = CompiledManifold(arm, self.keep, self._bounds, slacks, limits, self._second_derivative_bounds)
         self.changing_joints = self._find_changing_joints()
 
     def _find_changing_joints(self) -> BoolArray:
@@ -177,37 +179,7 @@ class ConstraintManifold:
 
         With ``deviation`` (E, n) this includes configurations whose joints deviate from the segment by no more.
         """
-        reserve = 0.0 if deviation is None else self.bound_changes(deviation)
-        start_margins, end_margins = self.constraint_margins(a) - reserve, self.constraint_margins(b) - reserve
-        is_proved = np.asarray((start_margins.min(axis=1) >= 0) & (end_margins.min(axis=1) >= 0))
-        curvature_term = self.bound_curvature(b - a) / 8
-        edge_index, start = np.flatnonzero(is_proved), np.zeros(int(is_proved.sum()))
-        start_margins, end_margins, length = start_margins[edge_index], end_margins[edge_index], 1.0
-        for _ in range(_MAX_PIECE_BISECTIONS):
-            undecided = (np.minimum(start_margins, end_margins) - length**2 * curvature_term[edge_index] < 0).any(
-                axis=1
-            ) & is_proved[edge_index]
-            if not undecided.any():
-                return is_proved
-            edge_index = edge_index[undecided]
-            start = start[undecided]
-            start_margins = start_margins[undecided]
-            end_margins = end_margins[undecided]
-            length /= 2
-            middle_margins = self.constraint_margins(a[edge_index] + (start + length)[:, None] * (b - a)[edge_index])
-            if deviation is not None:
-                middle_margins -= self.bound_changes(deviation[edge_index])
-            is_proved[edge_index[middle_margins.min(axis=1) < 0]] = False
-            edge_index, start = np.concatenate([edge_index, edge_index]), np.concatenate([start, start + length])
-            start_margins = np.concatenate([start_margins, middle_margins])
-            end_margins = np.concatenate([middle_margins, end_margins])
-        is_proved[edge_index] = False
-        return is_proved
-
-    def safe_motion_fraction(self, d: FloatArray) -> FloatArray:
-        """Return fractions (N,) of motions d (N, n) that use up at most half the margin of a constraint."""
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.minimum(1.0, np.sqrt(4 * self._slack / self.bound_curvature(d)).min(axis=1)))
+        return self.compiled.prove_edges(a, b - a, self.bound_changes(np.zeros_like(a) if deviation is None else deviation))
 
     # ---- projection --------------------------------------------------------------------------------------------------
 

@@ -25,8 +25,6 @@ MetricName = Literal["travel", "time"]
 # Possible motion in m between bodies that could collide: a segment that is still undecided at this size counts as blocked.
 MIN_RESOLVED_MOTION_M = 5e-4
 _END_ROOM_M = 1e-3  # room of a pair at the ends of a route with exact distances, in the search
-_MAX_EXTENSION_STEPS = 400  # largest number of pieces of one extension
-_MIN_PROGRESS_FRACTION = 0.1  # of a piece: smallest progress towards its end
 
 
 @dataclass(frozen=True)
@@ -246,31 +244,27 @@ class FreeSpace:
             return [
                 target[None] if indices else start[:0] for target, indices in zip(targets, has_arrived, strict=True)
             ], has_arrived
-        pieces: list[list[FloatArray]] = [[] for _ in start]
-        is_valid_target = self.manifold.is_satisfied(targets)
-        current, has_arrived, active = start.copy(), np.zeros(len(start), dtype=bool), np.arange(len(start))
-        for _ in range(_MAX_EXTENSION_STEPS):
-            remaining = targets[active] - current[active]
-            distances = metric.measure_length(remaining)
-            is_unfinished = distances > 0
-            active, remaining, distances = active[is_unfinished], remaining[is_unfinished], distances[is_unfinished]
-            if not active.size or self.is_time_over:
-                break
-            step_fractions = self.manifold.safe_motion_fraction(remaining)
-            steps = remaining * step_fractions[:, None]
-            is_last_step = (step_fractions == 1) & is_valid_target[active]
-            candidates = np.where(is_last_step[:, None], targets[active], self.manifold.project(current[active] + steps))
-            is_closer = distances - metric.measure_length(
-                targets[active] - candidates
-            ) > _MIN_PROGRESS_FRACTION * metric.measure_length(steps)
-            indices = np.flatnonzero(is_closer)
-            indices = indices[self.are_segments_valid(current[active[indices]], candidates[indices])]
-            for index in indices:
-                pieces[active[index]].append(candidates[index])
-            has_arrived[active[indices]] = is_last_step[indices]
-            current[active[indices]] = candidates[indices]
-            active = active[indices[~is_last_step[indices]]]
-        return [np.array(points) if points else start[:0] for points in pieces], has_arrived
+        extensions, has_arrived = self.manifold.compiled.extend_paths(
+            start,
+            targets,
+            self.manifold.is_satisfied(targets) & self.are_within_limits(targets),
+            scale=metric.scale,
+            has_largest_joint_metric=metric.name == "time",
+            edges=self.edges,
+            resolution=MIN_RESOLVED_MOTION_M,
+        )
+        if self.clearance is not None and self.edges is None:
+            self._cut_blocked_extensions(start, extensions, has_arrived)
+        return extensions, has_arrived
+
+    def _cut_blocked_extensions(self, start: FloatArray, extensions: list[FloatArray], has_arrived: BoolArray) -> None:
+        """Cut extensions from start (N, n) before the first piece that is not proved free."""
+        first_points = [np.concatenate([point[None], points])[:-1] for point, points in zip(start, extensions, strict=True)]
+        is_free = self.are_segments_valid(np.concatenate(first_points), np.concatenate(extensions))
+        for index, is_piece_free in enumerate(np.split(is_free, np.cumsum([len(points) for points in extensions])[:-1])):
+            if not is_piece_free.all():
+                extensions[index] = extensions[index][: int(is_piece_free.argmin())]
+                has_arrived[index] = False
 
     def _clearance_margins(self, q: FloatArray) -> FloatArray:
         """Return (N, P) the distance of every pair beyond the required one, m."""

@@ -35,7 +35,7 @@ class EdgeChecker:
         no_overlaps = np.zeros(len(lipschitz_bounds))
         tables = SceneTables.from_clearance(clearance, margin, lipschitz_bounds, no_overlaps if overlaps is None else overlaps)
         self.library = load_library()
-        self.single, self._double = CompiledScene(tables, np.float32), CompiledScene(tables, np.float64)
+        self.single, self.double = CompiledScene(tables, np.float32), CompiledScene(tables, np.float64)
 
     @staticmethod
     def supports(clearance: Clearance) -> bool:
@@ -74,7 +74,7 @@ class EdgeChecker:
         c = np.zeros_like(a) if deviations is None else np.ascontiguousarray(deviations)
         is_proved = np.zeros(len(a), dtype=np.bool_)
         self.library.prove_edges(
-            self._double.address, *(values.ctypes.data for values in (a, b, c)), len(a), resolution, is_proved.ctypes.data
+            self.double.address, *(values.ctypes.data for values in (a, b, c)), len(a), resolution, is_proved.ctypes.data
         )
         return np.asarray(is_proved & np.isfinite(a + b + c).all(axis=1))
 

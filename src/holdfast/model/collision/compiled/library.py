@@ -1,4 +1,4 @@
-"""Machine code of ``route_search.cpp`` for this processor.
+"""Machine code of ``route_search.cpp``, and of the file that it includes, for this processor.
 
 ``tools/native.py`` compiles the source to ``route_search.ll``, the language of LLVM, from which llvmlite makes machine code. So
 no compiler is needed to install or to run holdfast.
@@ -32,6 +32,8 @@ class RouteSearchLibrary:
             "search_route", c_int64, c_void_p, c_void_p, c_void_p, c_void_p, c_int64, c_uint64, c_void_p, c_void_p
         )
         self.check_spans = self._bind("check_spans", c_int64, c_void_p, c_void_p, c_int64, c_void_p, c_int64, c_void_p)
+        self.prove_constraints = self._bind("prove_constraints", None, *(c_void_p,) * 4, c_int64, c_void_p)
+        self.extend_paths = self._bind("extend_paths", None, c_void_p, c_void_p, c_void_p)
         self.shorten = self._bind("shorten", c_int64, c_void_p, c_void_p, c_void_p, c_int64, c_uint64)
 
     def _bind(self, name: str, result: Any, *arguments: Any) -> Any:

@@ -145,13 +145,14 @@ template <class T> struct Frame {
 };
 
 // Frames of all links, the fixed base in the world first, at configurations.
-template <class T> INLINE void compute_frames(const Scene<T> &scene, const typename Lanes<T>::V *configurations, Frame<T> *frames) {
+template <class T> INLINE void compute_frames(Int joint_count, const Joint<T> *joints, const typename Lanes<T>::V *configurations,
+                                              Frame<T> *frames) {
   typedef typename Lanes<T>::V V;
   const V zero = {};
   for (Int k = 0; k < 9; k++) frames[0].r[k] = zero + T(k % 4 == 0);
   for (Int k = 0; k < 3; k++) frames[0].p[k] = zero;
-  for (Int j = 0; j < scene.joint_count; j++) {
-    const Joint<T> &joint = scene.joints[j];
+  for (Int j = 0; j < joint_count; j++) {
+    const Joint<T> &joint = joints[j];
     const Frame<T> &before = frames[j];
     Frame<T> &after = frames[j + 1];
     const V q = configurations[j];
@@ -335,7 +336,7 @@ INLINE typename Lanes<T>::Mask find_too_close(const Scene<T> &scene, const T *st
   V q[MAX_JOINTS], link_motions[MAX_LINKS], pair_motions[MAX_LINK_PAIRS];
   Frame<T> frames[MAX_LINKS];
   for (Int j = 0; j < scene.joint_count; j++) q[j] = start[j] + fraction * difference[j];
-  compute_frames(scene, q, frames);
+  compute_frames(scene.joint_count, scene.joints, q, frames);
   for (Int link = 1; link <= scene.joint_count; link++) link_motions[link] = half * motion.link[link] + motion.link_deviation[link];
   for (Int k = 0; k < scene.link_pair_count; k++) pair_motions[k] = half * motion.pair[k] + motion.pair_deviation[k];
   return find_too_close<T, stop_at_first, false>(scene, frames, link_motions, pair_motions, [](Int, typename Lanes<T>::Mask, Int, Int) {});
@@ -391,6 +392,8 @@ static bool prove_edge(const Scene<double> &scene, const double *start, const do
   }
   return true;
 }
+
+#include "constraint_manifold.hpp"
 
 // ---- spans of motions -------------------------------------------------------------------------------------------------------
 
@@ -448,7 +451,7 @@ INLINE Bits find_open(const Scene<float> &scene, const Spans &spans, const SpanP
     deviation[j] = 0.5f * (high - low);
   }
   Frame<float> frames[MAX_LINKS];
-  compute_frames(scene, q, frames);
+  compute_frames(scene.joint_count, scene.joints, q, frames);
   // A point of a link moves by at most m = sum_j (lever_j + m) deviation_j, because its distance from an axis changes by at most m.
   V turn = {}, moved[MAX_LINKS][MAX_JOINTS + 1], rates[MAX_LINKS][MAX_JOINTS + 1];  // by the joints from each one on
   V turn_rate = {};
@@ -647,6 +650,20 @@ void prove_edges(const Scene<double> *scene, const double *starts, const double 
   const Int n = scene->joint_count;
   for (Int k = 0; k < edges; k++)
     proved[k] = prove_edge(*scene, starts + k * n, differences + k * n, deviations + k * n, resolution);
+}
+
+// Write 1 for each edge (edges, n) on which the tool constraints are proved to hold, with ``reserves`` (edges, lengths), else 0.
+void prove_constraints(const Manifold *manifold, const double *starts, const double *differences, const double *reserves, Int edges,
+                       char *proved) {
+  for (Int k = 0; k < edges; k++) {
+    const Int n = manifold->joint_count;
+    proved[k] = prove_constraints(*manifold, starts + k * n, differences + k * n, reserves + k * manifold->length_count);
+  }
+}
+
+// Extend paths along the tool constraints; see constraint_manifold.hpp.
+void extend_paths(const Manifold *manifold, const Scene<double> *scene, const Extensions *extensions) {
+  extend_paths(*manifold, scene, *extensions);
 }
 
 // Add a possible contact to one that it continues, or else to the end.

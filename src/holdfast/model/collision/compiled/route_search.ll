@@ -1,5 +1,6 @@
-; From route_search.cpp, SHA-256 856dd816c6e3e5029794eb569740e6dd4fe49841f3a2cb885851ffdd04fe5d4c, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 2d7bc0ff496fdcdbcc726f63178b0bce215330ac2224050d6b6a8df4a9c417bc, by tools/native.py. Do not edit.
 
+%struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
 %struct.Frame = type { [9 x <16 x float>], [3 x <16 x float>] }
 %struct.Motion = type { [17 x float], [17 x float], [136 x float], [136 x float] }
@@ -9,7 +10,6 @@
 %struct.LinkPair = type { i64, i64, i64, i64 }
 %struct.Part = type { [3 x float], [3 x float], float, float }
 %struct.PartPair = type { i64, i64 }
-%struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Frame.3 = type { [9 x <8 x double>], [3 x <8 x double>] }
 %struct.Motion.2 = type { [17 x double], [17 x double], [136 x double], [136 x double] }
 %struct.Piece = type { double, double }
@@ -17,10 +17,19 @@
 %struct.Sphere.8 = type { double, double, double, double }
 %struct.Object.9 = type { [9 x double], [3 x double], [3 x double], double, double, double }
 %struct.Part.10 = type { [3 x double], [3 x double], double, double }
+%struct.Piece.11 = type { double, double }
+%struct.Errors = type { i64, [24 x <8 x double>], [24 x <8 x double>], [24 x [64 x <8 x double>]] }
+%struct.Constraint = type { i64, i64, i64, [9 x double], [3 x double], [9 x double], [3 x double], [3 x double], double }
 %struct.SpanPiece = type { i64, float, float }
 %struct.Contact = type { %struct.SpanPiece, i64, double }
 %struct.Tree = type { ptr, ptr, i64 }
 %struct.Random = type { i64 }
+
+$_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d = comdat any
+
+$_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d = comdat any
+
+@__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit = private unnamed_addr constant [3 x %struct.Point.7] [%struct.Point.7 { <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, <8 x double> zeroinitializer, <8 x double> zeroinitializer }, %struct.Point.7 { <8 x double> zeroinitializer, <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, <8 x double> zeroinitializer }, %struct.Point.7 { <8 x double> zeroinitializer, <8 x double> zeroinitializer, <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00> }], align 64
 
 define void @check_edges(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, i64 noundef %3, float noundef %4, float noundef %5, ptr nocapture noundef writeonly %6) {
   %8 = icmp sgt i64 %3, 0
@@ -206,9 +215,9 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
   %119 = insertelement <16 x float> poison, float %118, i64 0
   %120 = shufflevector <16 x float> %119, <16 x float> poison, <16 x i32> zeroinitializer
   %121 = icmp sgt i64 %15, 0
-  %122 = getelementptr inbounds i8, ptr %12, i64 576
-  %123 = getelementptr inbounds i8, ptr %0, i64 24
-  %124 = load ptr, ptr %123, align 8
+  %122 = getelementptr inbounds i8, ptr %0, i64 24
+  %123 = load ptr, ptr %122, align 8
+  %124 = getelementptr inbounds i8, ptr %12, i64 576
   %125 = icmp slt i64 %15, 1
   %126 = getelementptr inbounds i8, ptr %13, i64 68
   %127 = getelementptr inbounds i8, ptr %13, i64 680
@@ -292,7 +301,7 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
 
 187:
   %188 = phi i64 [ %190, %187 ], [ 0, %176 ]
-  %189 = getelementptr inbounds [3 x <16 x float>], ptr %122, i64 0, i64 %188
+  %189 = getelementptr inbounds [3 x <16 x float>], ptr %124, i64 0, i64 %188
   store <16 x float> zeroinitializer, ptr %189, align 64
   %190 = add nuw nsw i64 %188, 1
   %191 = icmp eq i64 %190, 3
@@ -303,7 +312,7 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
 
 193:
   %194 = phi i64 [ %197, %381 ], [ 0, %186 ]
-  %195 = getelementptr inbounds %struct.Joint, ptr %124, i64 %194
+  %195 = getelementptr inbounds %struct.Joint, ptr %123, i64 %194
   %196 = getelementptr inbounds %struct.Frame, ptr %12, i64 %194
   %197 = add nuw nsw i64 %194, 1
   %198 = getelementptr inbounds <16 x float>, ptr %9, i64 %194
@@ -1524,1618 +1533,3008 @@ define internal fastcc noundef zeroext i1 @_ZL12is_edge_freeRK5SceneIfEPKfS4_ff(
 declare void @llvm.lifetime.end.p0(i64 immarg, ptr nocapture)
 
 define void @prove_edges(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3, i64 noundef %4, double noundef %5, ptr nocapture noundef writeonly %6) {
-  %8 = alloca [192 x %struct.Point.7], align 64
-  %9 = alloca [2 x i64], align 16
-  %10 = alloca [9 x <8 x double>], align 64
-  %11 = alloca [16 x <8 x double>], align 64
-  %12 = alloca [17 x <8 x double>], align 64
-  %13 = alloca [136 x <8 x double>], align 64
-  %14 = alloca [17 x %struct.Frame.3], align 64
-  %15 = alloca %struct.Motion.2, align 8
-  %16 = alloca [4096 x %struct.Piece], align 16
-  %17 = alloca [8 x %struct.Piece], align 16
-  %18 = load i64, ptr %0, align 8
-  %19 = icmp sgt i64 %4, 0
-  br i1 %19, label %20, label %42
+  %8 = load i64, ptr %0, align 8
+  %9 = icmp sgt i64 %4, 0
+  br i1 %9, label %11, label %10
 
-20:
-  %21 = getelementptr inbounds i8, ptr %15, i64 272
-  %22 = getelementptr inbounds i8, ptr %0, i64 112
-  %23 = getelementptr inbounds i8, ptr %0, i64 16
-  %24 = getelementptr inbounds i8, ptr %0, i64 120
-  %25 = getelementptr inbounds i8, ptr %15, i64 136
-  %26 = getelementptr inbounds i8, ptr %15, i64 1360
-  %27 = getelementptr inbounds i8, ptr %14, i64 576
-  %28 = getelementptr inbounds i8, ptr %0, i64 24
-  %29 = getelementptr inbounds i8, ptr %0, i64 48
-  %30 = getelementptr inbounds i8, ptr %0, i64 8
-  %31 = getelementptr inbounds i8, ptr %0, i64 56
-  %32 = getelementptr inbounds i8, ptr %0, i64 64
-  %33 = getelementptr inbounds i8, ptr %0, i64 32
-  %34 = getelementptr inbounds i8, ptr %0, i64 40
-  %35 = getelementptr inbounds i8, ptr %0, i64 96
-  %36 = getelementptr inbounds i8, ptr %0, i64 88
-  %37 = getelementptr inbounds i8, ptr %0, i64 128
-  %38 = getelementptr inbounds i8, ptr %9, i64 8
-  %39 = getelementptr inbounds i8, ptr %0, i64 80
-  %40 = getelementptr inbounds i8, ptr %0, i64 72
-  %41 = getelementptr inbounds i8, ptr %0, i64 104
-  br label %43
-
-42:
+10:
   ret void
 
-43:
-  %44 = phi i64 [ 0, %20 ], [ %1363, %1360 ]
-  %45 = mul nsw i64 %44, %18
-  %46 = getelementptr inbounds double, ptr %1, i64 %45
-  %47 = getelementptr inbounds double, ptr %2, i64 %45
-  %48 = getelementptr inbounds double, ptr %3, i64 %45
-  call void @llvm.lifetime.start.p0(i64 2448, ptr nonnull %15)
-  %49 = load i64, ptr %0, align 8
-  %50 = icmp slt i64 %49, 0
-  br i1 %50, label %54, label %51
+11:
+  %12 = phi i64 [ %20, %11 ], [ 0, %7 ]
+  %13 = mul nsw i64 %12, %8
+  %14 = getelementptr inbounds double, ptr %1, i64 %13
+  %15 = getelementptr inbounds double, ptr %2, i64 %13
+  %16 = getelementptr inbounds double, ptr %3, i64 %13
+  %17 = tail call fastcc noundef zeroext i1 @_ZL10prove_edgeRK5SceneIdEPKdS4_S4_d(ptr noundef nonnull align 8 dereferenceable(136) %0, ptr noundef %14, ptr noundef %15, ptr noundef %16, double noundef %5)
+  %18 = zext i1 %17 to i8
+  %19 = getelementptr inbounds i8, ptr %6, i64 %12
+  store i8 %18, ptr %19, align 1
+  %20 = add nuw nsw i64 %12, 1
+  %21 = icmp eq i64 %20, %4
+  br i1 %21, label %10, label %11
+}
 
-51:
-  %52 = icmp eq i64 %49, 0
-  %53 = load ptr, ptr %22, align 8
-  br label %60
+define internal fastcc noundef zeroext i1 @_ZL10prove_edgeRK5SceneIdEPKdS4_S4_d(ptr nocapture noundef nonnull readonly align 8 dereferenceable(136) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3, double noundef %4) unnamed_addr {
+  %6 = alloca [192 x %struct.Point.7], align 64
+  %7 = alloca [2 x i64], align 16
+  %8 = alloca [9 x <8 x double>], align 64
+  %9 = alloca [16 x <8 x double>], align 64
+  %10 = alloca [17 x <8 x double>], align 64
+  %11 = alloca [136 x <8 x double>], align 64
+  %12 = alloca [17 x %struct.Frame.3], align 64
+  %13 = alloca %struct.Motion.2, align 8
+  %14 = alloca [4096 x %struct.Piece], align 16
+  %15 = alloca [8 x %struct.Piece], align 16
+  call void @llvm.lifetime.start.p0(i64 2448, ptr nonnull %13)
+  %16 = getelementptr inbounds i8, ptr %13, i64 272
+  %17 = load i64, ptr %0, align 8
+  %18 = icmp slt i64 %17, 0
+  br i1 %18, label %23, label %19
+
+19:
+  %20 = getelementptr inbounds i8, ptr %0, i64 112
+  %21 = icmp eq i64 %17, 0
+  %22 = load ptr, ptr %20, align 8
+  br label %31
+
+23:
+  %24 = getelementptr inbounds i8, ptr %0, i64 16
+  %25 = load i64, ptr %24, align 8
+  %26 = icmp sgt i64 %25, 0
+  br i1 %26, label %27, label %77
+
+27:
+  %28 = getelementptr inbounds i8, ptr %0, i64 120
+  %29 = icmp sgt i64 %17, 0
+  %30 = load ptr, ptr %28, align 8
+  br label %54
+
+31:
+  %32 = phi i64 [ 0, %19 ], [ %52, %49 ]
+  %33 = mul nuw nsw i64 %32, %17
+  %34 = getelementptr inbounds double, ptr %22, i64 %33
+  br i1 %21, label %49, label %35
+
+35:
+  %36 = phi i64 [ %47, %35 ], [ 0, %31 ]
+  %37 = phi double [ %46, %35 ], [ 0.000000e+00, %31 ]
+  %38 = getelementptr inbounds double, ptr %34, i64 %36
+  %39 = load double, ptr %38, align 8
+  %40 = getelementptr inbounds double, ptr %2, i64 %36
+  %41 = load double, ptr %40, align 8
+  %42 = fcmp contract olt double %41, 0.000000e+00
+  %43 = fneg contract double %41
+  %44 = select contract i1 %42, double %43, double %41
+  %45 = fmul contract double %39, %44
+  %46 = fadd contract double %37, %45
+  %47 = add nuw nsw i64 %36, 1
+  %48 = icmp eq i64 %47, %17
+  br i1 %48, label %49, label %35
+
+49:
+  %50 = phi double [ 0.000000e+00, %31 ], [ %46, %35 ]
+  %51 = getelementptr inbounds double, ptr %13, i64 %32
+  store double %50, ptr %51, align 8
+  %52 = add nuw i64 %32, 1
+  %53 = icmp eq i64 %32, %17
+  br i1 %53, label %23, label %31
 
 54:
-  %55 = load i64, ptr %23, align 8
-  %56 = icmp sgt i64 %55, 0
-  br i1 %56, label %57, label %106
+  %55 = phi i64 [ 0, %27 ], [ %75, %72 ]
+  %56 = mul nsw i64 %55, %17
+  %57 = getelementptr inbounds double, ptr %30, i64 %56
+  br i1 %29, label %58, label %72
 
-57:
-  %58 = icmp sgt i64 %49, 0
-  %59 = load ptr, ptr %24, align 8
-  br label %83
+58:
+  %59 = phi i64 [ %70, %58 ], [ 0, %54 ]
+  %60 = phi double [ %69, %58 ], [ 0.000000e+00, %54 ]
+  %61 = getelementptr inbounds double, ptr %57, i64 %59
+  %62 = load double, ptr %61, align 8
+  %63 = getelementptr inbounds double, ptr %2, i64 %59
+  %64 = load double, ptr %63, align 8
+  %65 = fcmp contract olt double %64, 0.000000e+00
+  %66 = fneg contract double %64
+  %67 = select contract i1 %65, double %66, double %64
+  %68 = fmul contract double %62, %67
+  %69 = fadd contract double %60, %68
+  %70 = add nuw nsw i64 %59, 1
+  %71 = icmp eq i64 %70, %17
+  br i1 %71, label %72, label %58
 
-60:
-  %61 = phi i64 [ 0, %51 ], [ %81, %78 ]
-  %62 = mul nuw nsw i64 %61, %49
-  %63 = getelementptr inbounds double, ptr %53, i64 %62
-  br i1 %52, label %78, label %64
+72:
+  %73 = phi double [ 0.000000e+00, %54 ], [ %69, %58 ]
+  %74 = getelementptr inbounds double, ptr %16, i64 %55
+  store double %73, ptr %74, align 8
+  %75 = add nuw nsw i64 %55, 1
+  %76 = icmp eq i64 %75, %25
+  br i1 %76, label %77, label %54
 
-64:
-  %65 = phi i64 [ %76, %64 ], [ 0, %60 ]
-  %66 = phi double [ %75, %64 ], [ 0.000000e+00, %60 ]
-  %67 = getelementptr inbounds double, ptr %63, i64 %65
-  %68 = load double, ptr %67, align 8
-  %69 = getelementptr inbounds double, ptr %47, i64 %65
-  %70 = load double, ptr %69, align 8
-  %71 = fcmp contract olt double %70, 0.000000e+00
-  %72 = fneg contract double %70
-  %73 = select contract i1 %71, double %72, double %70
-  %74 = fmul contract double %68, %73
-  %75 = fadd contract double %66, %74
-  %76 = add nuw nsw i64 %65, 1
-  %77 = icmp eq i64 %76, %49
-  br i1 %77, label %78, label %64
+77:
+  %78 = getelementptr inbounds i8, ptr %13, i64 136
+  %79 = getelementptr inbounds i8, ptr %13, i64 1360
+  br i1 %18, label %84, label %80
 
-78:
-  %79 = phi double [ 0.000000e+00, %60 ], [ %75, %64 ]
-  %80 = getelementptr inbounds double, ptr %15, i64 %61
-  store double %79, ptr %80, align 8
-  %81 = add nuw i64 %61, 1
-  %82 = icmp eq i64 %61, %49
-  br i1 %82, label %54, label %60
+80:
+  %81 = getelementptr inbounds i8, ptr %0, i64 112
+  %82 = icmp eq i64 %17, 0
+  %83 = load ptr, ptr %81, align 8
+  br label %89
 
-83:
-  %84 = phi i64 [ 0, %57 ], [ %104, %101 ]
-  %85 = mul nsw i64 %84, %49
-  %86 = getelementptr inbounds double, ptr %59, i64 %85
-  br i1 %58, label %87, label %101
+84:
+  br i1 %26, label %85, label %135
 
-87:
-  %88 = phi i64 [ %99, %87 ], [ 0, %83 ]
-  %89 = phi double [ %98, %87 ], [ 0.000000e+00, %83 ]
-  %90 = getelementptr inbounds double, ptr %86, i64 %88
-  %91 = load double, ptr %90, align 8
-  %92 = getelementptr inbounds double, ptr %47, i64 %88
-  %93 = load double, ptr %92, align 8
-  %94 = fcmp contract olt double %93, 0.000000e+00
-  %95 = fneg contract double %93
-  %96 = select contract i1 %94, double %95, double %93
-  %97 = fmul contract double %91, %96
-  %98 = fadd contract double %89, %97
-  %99 = add nuw nsw i64 %88, 1
-  %100 = icmp eq i64 %99, %49
-  br i1 %100, label %101, label %87
+85:
+  %86 = getelementptr inbounds i8, ptr %0, i64 120
+  %87 = icmp sgt i64 %17, 0
+  %88 = load ptr, ptr %86, align 8
+  br label %112
 
-101:
-  %102 = phi double [ 0.000000e+00, %83 ], [ %98, %87 ]
-  %103 = getelementptr inbounds double, ptr %21, i64 %84
-  store double %102, ptr %103, align 8
-  %104 = add nuw nsw i64 %84, 1
-  %105 = icmp eq i64 %104, %55
-  br i1 %105, label %106, label %83
+89:
+  %90 = phi i64 [ 0, %80 ], [ %110, %107 ]
+  %91 = mul nuw nsw i64 %90, %17
+  %92 = getelementptr inbounds double, ptr %83, i64 %91
+  br i1 %82, label %107, label %93
 
-106:
-  br i1 %50, label %110, label %107
+93:
+  %94 = phi i64 [ %105, %93 ], [ 0, %89 ]
+  %95 = phi double [ %104, %93 ], [ 0.000000e+00, %89 ]
+  %96 = getelementptr inbounds double, ptr %92, i64 %94
+  %97 = load double, ptr %96, align 8
+  %98 = getelementptr inbounds double, ptr %3, i64 %94
+  %99 = load double, ptr %98, align 8
+  %100 = fcmp contract olt double %99, 0.000000e+00
+  %101 = fneg contract double %99
+  %102 = select contract i1 %100, double %101, double %99
+  %103 = fmul contract double %97, %102
+  %104 = fadd contract double %95, %103
+  %105 = add nuw nsw i64 %94, 1
+  %106 = icmp eq i64 %105, %17
+  br i1 %106, label %107, label %93
 
 107:
-  %108 = icmp eq i64 %49, 0
-  %109 = load ptr, ptr %22, align 8
-  br label %114
+  %108 = phi double [ 0.000000e+00, %89 ], [ %104, %93 ]
+  %109 = getelementptr inbounds double, ptr %78, i64 %90
+  store double %108, ptr %109, align 8
+  %110 = add nuw i64 %90, 1
+  %111 = icmp eq i64 %90, %17
+  br i1 %111, label %84, label %89
 
-110:
-  br i1 %56, label %111, label %160
+112:
+  %113 = phi i64 [ 0, %85 ], [ %133, %130 ]
+  %114 = mul nsw i64 %113, %17
+  %115 = getelementptr inbounds double, ptr %88, i64 %114
+  br i1 %87, label %116, label %130
 
-111:
-  %112 = icmp sgt i64 %49, 0
-  %113 = load ptr, ptr %24, align 8
-  br label %137
-
-114:
-  %115 = phi i64 [ 0, %107 ], [ %135, %132 ]
-  %116 = mul nuw nsw i64 %115, %49
-  %117 = getelementptr inbounds double, ptr %109, i64 %116
-  br i1 %108, label %132, label %118
-
-118:
-  %119 = phi i64 [ %130, %118 ], [ 0, %114 ]
-  %120 = phi double [ %129, %118 ], [ 0.000000e+00, %114 ]
-  %121 = getelementptr inbounds double, ptr %117, i64 %119
+116:
+  %117 = phi i64 [ %128, %116 ], [ 0, %112 ]
+  %118 = phi double [ %127, %116 ], [ 0.000000e+00, %112 ]
+  %119 = getelementptr inbounds double, ptr %115, i64 %117
+  %120 = load double, ptr %119, align 8
+  %121 = getelementptr inbounds double, ptr %3, i64 %117
   %122 = load double, ptr %121, align 8
-  %123 = getelementptr inbounds double, ptr %48, i64 %119
-  %124 = load double, ptr %123, align 8
-  %125 = fcmp contract olt double %124, 0.000000e+00
-  %126 = fneg contract double %124
-  %127 = select contract i1 %125, double %126, double %124
-  %128 = fmul contract double %122, %127
-  %129 = fadd contract double %120, %128
-  %130 = add nuw nsw i64 %119, 1
-  %131 = icmp eq i64 %130, %49
-  br i1 %131, label %132, label %118
+  %123 = fcmp contract olt double %122, 0.000000e+00
+  %124 = fneg contract double %122
+  %125 = select contract i1 %123, double %124, double %122
+  %126 = fmul contract double %120, %125
+  %127 = fadd contract double %118, %126
+  %128 = add nuw nsw i64 %117, 1
+  %129 = icmp eq i64 %128, %17
+  br i1 %129, label %130, label %116
 
-132:
-  %133 = phi double [ 0.000000e+00, %114 ], [ %129, %118 ]
-  %134 = getelementptr inbounds double, ptr %25, i64 %115
-  store double %133, ptr %134, align 8
-  %135 = add nuw i64 %115, 1
-  %136 = icmp eq i64 %115, %49
-  br i1 %136, label %110, label %114
+130:
+  %131 = phi double [ 0.000000e+00, %112 ], [ %127, %116 ]
+  %132 = getelementptr inbounds double, ptr %79, i64 %113
+  store double %131, ptr %132, align 8
+  %133 = add nuw nsw i64 %113, 1
+  %134 = icmp eq i64 %133, %25
+  br i1 %134, label %135, label %112
 
-137:
-  %138 = phi i64 [ 0, %111 ], [ %158, %155 ]
-  %139 = mul nsw i64 %138, %49
-  %140 = getelementptr inbounds double, ptr %113, i64 %139
-  br i1 %112, label %141, label %155
+135:
+  br i1 %18, label %136, label %138
 
-141:
-  %142 = phi i64 [ %153, %141 ], [ 0, %137 ]
-  %143 = phi double [ %152, %141 ], [ 0.000000e+00, %137 ]
-  %144 = getelementptr inbounds double, ptr %140, i64 %142
-  %145 = load double, ptr %144, align 8
-  %146 = getelementptr inbounds double, ptr %48, i64 %142
-  %147 = load double, ptr %146, align 8
-  %148 = fcmp contract olt double %147, 0.000000e+00
-  %149 = fneg contract double %147
-  %150 = select contract i1 %148, double %149, double %147
-  %151 = fmul contract double %145, %150
-  %152 = fadd contract double %143, %151
-  %153 = add nuw nsw i64 %142, 1
-  %154 = icmp eq i64 %153, %49
-  br i1 %154, label %155, label %141
+136:
+  %137 = phi double [ 0.000000e+00, %135 ], [ %144, %138 ]
+  br i1 %26, label %147, label %156
 
-155:
-  %156 = phi double [ 0.000000e+00, %137 ], [ %152, %141 ]
-  %157 = getelementptr inbounds double, ptr %26, i64 %138
-  store double %156, ptr %157, align 8
-  %158 = add nuw nsw i64 %138, 1
-  %159 = icmp eq i64 %158, %55
-  br i1 %159, label %160, label %137
+138:
+  %139 = phi i64 [ %145, %138 ], [ 0, %135 ]
+  %140 = phi double [ %144, %138 ], [ 0.000000e+00, %135 ]
+  %141 = getelementptr inbounds [17 x double], ptr %13, i64 0, i64 %139
+  %142 = load double, ptr %141, align 8
+  %143 = fcmp contract ogt double %142, %140
+  %144 = select i1 %143, double %142, double %140
+  %145 = add nuw i64 %139, 1
+  %146 = icmp eq i64 %139, %17
+  br i1 %146, label %136, label %138
 
-160:
-  br i1 %50, label %161, label %163
+147:
+  %148 = phi i64 [ %154, %147 ], [ 0, %136 ]
+  %149 = phi double [ %153, %147 ], [ %137, %136 ]
+  %150 = getelementptr inbounds [136 x double], ptr %16, i64 0, i64 %148
+  %151 = load double, ptr %150, align 8
+  %152 = fcmp contract ogt double %151, %149
+  %153 = select i1 %152, double %151, double %149
+  %154 = add nuw nsw i64 %148, 1
+  %155 = icmp eq i64 %154, %25
+  br i1 %155, label %156, label %147
 
-161:
-  %162 = phi double [ 0.000000e+00, %160 ], [ %169, %163 ]
-  br i1 %56, label %172, label %181
+156:
+  %157 = phi double [ %137, %136 ], [ %153, %147 ]
+  call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %14)
+  br label %190
 
-163:
-  %164 = phi i64 [ %170, %163 ], [ 0, %160 ]
-  %165 = phi double [ %169, %163 ], [ 0.000000e+00, %160 ]
-  %166 = getelementptr inbounds [17 x double], ptr %15, i64 0, i64 %164
-  %167 = load double, ptr %166, align 8
-  %168 = fcmp contract ogt double %167, %165
-  %169 = select i1 %168, double %167, double %165
-  %170 = add nuw i64 %164, 1
-  %171 = icmp eq i64 %164, %49
-  br i1 %171, label %161, label %163
-
-172:
-  %173 = phi i64 [ %179, %172 ], [ 0, %161 ]
-  %174 = phi double [ %178, %172 ], [ %162, %161 ]
-  %175 = getelementptr inbounds [136 x double], ptr %21, i64 0, i64 %173
-  %176 = load double, ptr %175, align 8
-  %177 = fcmp contract ogt double %176, %174
-  %178 = select i1 %177, double %176, double %174
-  %179 = add nuw nsw i64 %173, 1
-  %180 = icmp eq i64 %179, %55
-  br i1 %180, label %181, label %172
-
-181:
-  %182 = phi double [ %162, %161 ], [ %178, %172 ]
-  call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %16)
+158:
+  %159 = icmp sgt i64 %17, 0
+  %160 = getelementptr inbounds i8, ptr %0, i64 24
+  %161 = load ptr, ptr %160, align 8
+  %162 = getelementptr inbounds i8, ptr %12, i64 576
+  %163 = icmp slt i64 %17, 1
+  %164 = getelementptr inbounds i8, ptr %0, i64 48
+  %165 = load ptr, ptr %164, align 8
+  %166 = getelementptr inbounds i8, ptr %0, i64 8
+  %167 = load i64, ptr %166, align 8
+  %168 = icmp sgt i64 %167, 0
+  %169 = getelementptr inbounds i8, ptr %0, i64 56
+  %170 = load ptr, ptr %169, align 8
+  %171 = getelementptr inbounds i8, ptr %0, i64 64
+  %172 = load ptr, ptr %171, align 8
+  %173 = getelementptr inbounds i8, ptr %0, i64 32
+  %174 = load ptr, ptr %173, align 8
+  %175 = getelementptr inbounds i8, ptr %0, i64 40
+  %176 = load ptr, ptr %175, align 8
+  %177 = getelementptr inbounds i8, ptr %0, i64 96
+  %178 = load ptr, ptr %177, align 8
+  %179 = getelementptr inbounds i8, ptr %0, i64 88
+  %180 = load ptr, ptr %179, align 8
+  %181 = getelementptr inbounds i8, ptr %0, i64 128
+  %182 = load ptr, ptr %181, align 8
+  %183 = getelementptr inbounds i8, ptr %7, i64 8
+  %184 = getelementptr inbounds i8, ptr %0, i64 80
+  %185 = load ptr, ptr %184, align 8
+  %186 = getelementptr inbounds i8, ptr %0, i64 72
+  %187 = load ptr, ptr %186, align 8
+  %188 = getelementptr inbounds i8, ptr %0, i64 104
+  %189 = load ptr, ptr %188, align 8
   br label %200
 
-183:
-  %184 = icmp sgt i64 %49, 0
-  %185 = icmp slt i64 %49, 1
-  %186 = load ptr, ptr %28, align 8
-  %187 = load ptr, ptr %29, align 8
-  %188 = load i64, ptr %30, align 8
-  %189 = icmp sgt i64 %188, 0
-  %190 = load ptr, ptr %31, align 8
-  %191 = load ptr, ptr %32, align 8
-  %192 = load ptr, ptr %33, align 8
-  %193 = load ptr, ptr %34, align 8
-  %194 = load ptr, ptr %35, align 8
-  %195 = load ptr, ptr %36, align 8
-  %196 = load ptr, ptr %37, align 8
-  %197 = load ptr, ptr %39, align 8
-  %198 = load ptr, ptr %40, align 8
-  %199 = load ptr, ptr %41, align 8
-  br label %210
+190:
+  %191 = phi i64 [ 0, %156 ], [ %196, %190 ]
+  %192 = uitofp nneg i64 %191 to double
+  %193 = fmul contract double %192, 2.000000e+00
+  %194 = fadd contract double %193, 1.000000e+00
+  %195 = fmul contract double %194, 6.250000e-02
+  %196 = add nuw nsw i64 %191, 1
+  %197 = getelementptr inbounds [4096 x %struct.Piece], ptr %14, i64 0, i64 %191
+  store double %195, ptr %197, align 16
+  %198 = getelementptr inbounds i8, ptr %197, i64 8
+  store double 6.250000e-02, ptr %198, align 8
+  %199 = icmp eq i64 %196, 8
+  br i1 %199, label %158, label %190
 
 200:
-  %201 = phi i64 [ 0, %181 ], [ %206, %200 ]
-  %202 = uitofp nneg i64 %201 to double
-  %203 = fmul contract double %202, 2.000000e+00
-  %204 = fadd contract double %203, 1.000000e+00
-  %205 = fmul contract double %204, 6.250000e-02
-  %206 = add nuw nsw i64 %201, 1
-  %207 = getelementptr inbounds [4096 x %struct.Piece], ptr %16, i64 0, i64 %201
-  store double %205, ptr %207, align 16
-  %208 = getelementptr inbounds i8, ptr %207, i64 8
-  store double 6.250000e-02, ptr %208, align 8
-  %209 = icmp eq i64 %206, 8
-  br i1 %209, label %183, label %200
+  %201 = phi i64 [ 8, %158 ], [ %1344, %1343 ]
+  %202 = phi <8 x double> [ undef, %158 ], [ %1307, %1343 ]
+  %203 = phi <8 x double> [ undef, %158 ], [ %1310, %1343 ]
+  call void @llvm.lifetime.start.p0(i64 128, ptr nonnull %15)
+  br label %1296
 
-210:
-  %211 = phi i64 [ 8, %183 ], [ %1358, %1357 ]
-  %212 = phi <8 x double> [ undef, %183 ], [ %1321, %1357 ]
-  %213 = phi <8 x double> [ undef, %183 ], [ %1324, %1357 ]
-  call void @llvm.lifetime.start.p0(i64 128, ptr nonnull %17)
-  br label %1310
+204:
+  %205 = tail call i64 @llvm.smin.i64(i64 %201, i64 8)
+  %206 = sub nsw i64 %201, %205
+  call void @llvm.lifetime.start.p0(i64 1024, ptr nonnull %9)
+  call void @llvm.lifetime.start.p0(i64 1088, ptr nonnull %10)
+  call void @llvm.lifetime.start.p0(i64 8704, ptr nonnull %11)
+  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %12)
+  br i1 %159, label %429, label %207
 
-214:
-  %215 = tail call i64 @llvm.smin.i64(i64 %211, i64 8)
-  %216 = sub nsw i64 %211, %215
-  call void @llvm.lifetime.start.p0(i64 1024, ptr nonnull %11)
-  call void @llvm.lifetime.start.p0(i64 1088, ptr nonnull %12)
-  call void @llvm.lifetime.start.p0(i64 8704, ptr nonnull %13)
-  call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %14)
-  br i1 %184, label %438, label %217
+207:
+  br label %208
 
-217:
-  br label %218
+208:
+  %209 = phi i64 [ %216, %208 ], [ 0, %207 ]
+  %210 = and i64 %209, 3
+  %211 = icmp eq i64 %210, 0
+  %212 = uitofp i1 %211 to double
+  %213 = insertelement <8 x double> poison, double %212, i64 0
+  %214 = shufflevector <8 x double> %213, <8 x double> poison, <8 x i32> zeroinitializer
+  %215 = getelementptr inbounds [9 x <8 x double>], ptr %12, i64 0, i64 %209
+  store <8 x double> %214, ptr %215, align 64
+  %216 = add nuw nsw i64 %209, 1
+  %217 = icmp eq i64 %216, 9
+  br i1 %217, label %219, label %208
 
 218:
-  %219 = phi i64 [ %226, %218 ], [ 0, %217 ]
-  %220 = and i64 %219, 3
-  %221 = icmp eq i64 %220, 0
-  %222 = uitofp i1 %221 to double
-  %223 = insertelement <8 x double> poison, double %222, i64 0
-  %224 = shufflevector <8 x double> %223, <8 x double> poison, <8 x i32> zeroinitializer
-  %225 = getelementptr inbounds [9 x <8 x double>], ptr %14, i64 0, i64 %219
-  store <8 x double> %224, ptr %225, align 64
-  %226 = add nuw nsw i64 %219, 1
-  %227 = icmp eq i64 %226, 9
-  br i1 %227, label %229, label %218
+  br i1 %159, label %225, label %444
 
-228:
-  br i1 %184, label %234, label %453
+219:
+  %220 = phi i64 [ %222, %219 ], [ 0, %208 ]
+  %221 = getelementptr inbounds [3 x <8 x double>], ptr %162, i64 0, i64 %220
+  store <8 x double> zeroinitializer, ptr %221, align 64
+  %222 = add nuw nsw i64 %220, 1
+  %223 = icmp eq i64 %222, 3
+  br i1 %223, label %218, label %219
 
-229:
-  %230 = phi i64 [ %232, %229 ], [ 0, %218 ]
-  %231 = getelementptr inbounds [3 x <8 x double>], ptr %27, i64 0, i64 %230
-  store <8 x double> zeroinitializer, ptr %231, align 64
-  %232 = add nuw nsw i64 %230, 1
-  %233 = icmp eq i64 %232, 3
-  br i1 %233, label %228, label %229
+224:
+  br i1 %163, label %444, label %445
 
-234:
-  %235 = phi i64 [ %287, %436 ], [ 0, %228 ]
-  %236 = getelementptr inbounds %struct.Joint.6, ptr %186, i64 %235
-  %237 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %235
-  %238 = getelementptr inbounds <8 x double>, ptr %11, i64 %235
+225:
+  %226 = phi i64 [ %229, %427 ], [ 0, %218 ]
+  %227 = getelementptr inbounds %struct.Joint.6, ptr %161, i64 %226
+  %228 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %226
+  %229 = add nuw nsw i64 %226, 1
+  %230 = getelementptr inbounds <8 x double>, ptr %9, i64 %226
+  %231 = load <8 x double>, ptr %230, align 64
+  %232 = getelementptr inbounds i8, ptr %227, i64 72
+  %233 = load double, ptr %232, align 8
+  %234 = getelementptr inbounds i8, ptr %227, i64 80
+  %235 = load double, ptr %234, align 8
+  %236 = getelementptr inbounds i8, ptr %227, i64 88
+  %237 = load double, ptr %236, align 8
+  %238 = getelementptr inbounds i8, ptr %228, i64 576
   %239 = load <8 x double>, ptr %238, align 64
-  %240 = getelementptr inbounds i8, ptr %236, i64 72
-  %241 = load double, ptr %240, align 8
-  %242 = getelementptr inbounds i8, ptr %236, i64 80
-  %243 = load double, ptr %242, align 8
-  %244 = getelementptr inbounds i8, ptr %236, i64 88
-  %245 = load double, ptr %244, align 8
-  %246 = getelementptr inbounds i8, ptr %237, i64 576
-  %247 = load <8 x double>, ptr %246, align 64
-  %248 = load <8 x double>, ptr %237, align 64
-  %249 = insertelement <8 x double> poison, double %241, i64 0
-  %250 = shufflevector <8 x double> %249, <8 x double> poison, <8 x i32> zeroinitializer
-  %251 = getelementptr inbounds i8, ptr %237, i64 64
-  %252 = load <8 x double>, ptr %251, align 64
-  %253 = insertelement <8 x double> poison, double %243, i64 0
-  %254 = shufflevector <8 x double> %253, <8 x double> poison, <8 x i32> zeroinitializer
-  %255 = getelementptr inbounds i8, ptr %237, i64 128
-  %256 = load <8 x double>, ptr %255, align 64
-  %257 = insertelement <8 x double> poison, double %245, i64 0
-  %258 = shufflevector <8 x double> %257, <8 x double> poison, <8 x i32> zeroinitializer
-  %259 = getelementptr inbounds i8, ptr %237, i64 640
+  %240 = load <8 x double>, ptr %228, align 64
+  %241 = insertelement <8 x double> poison, double %233, i64 0
+  %242 = shufflevector <8 x double> %241, <8 x double> poison, <8 x i32> zeroinitializer
+  %243 = fmul contract <8 x double> %242, %240
+  %244 = getelementptr inbounds i8, ptr %228, i64 64
+  %245 = load <8 x double>, ptr %244, align 64
+  %246 = insertelement <8 x double> poison, double %235, i64 0
+  %247 = shufflevector <8 x double> %246, <8 x double> poison, <8 x i32> zeroinitializer
+  %248 = fmul contract <8 x double> %247, %245
+  %249 = getelementptr inbounds i8, ptr %228, i64 128
+  %250 = load <8 x double>, ptr %249, align 64
+  %251 = insertelement <8 x double> poison, double %237, i64 0
+  %252 = shufflevector <8 x double> %251, <8 x double> poison, <8 x i32> zeroinitializer
+  %253 = fmul contract <8 x double> %252, %250
+  %254 = getelementptr inbounds i8, ptr %228, i64 640
+  %255 = load <8 x double>, ptr %254, align 64
+  %256 = getelementptr inbounds i8, ptr %228, i64 192
+  %257 = load <8 x double>, ptr %256, align 64
+  %258 = fmul contract <8 x double> %242, %257
+  %259 = getelementptr inbounds i8, ptr %228, i64 256
   %260 = load <8 x double>, ptr %259, align 64
-  %261 = getelementptr inbounds i8, ptr %237, i64 192
-  %262 = load <8 x double>, ptr %261, align 64
-  %263 = getelementptr inbounds i8, ptr %237, i64 256
-  %264 = load <8 x double>, ptr %263, align 64
-  %265 = getelementptr inbounds i8, ptr %237, i64 320
+  %261 = fmul contract <8 x double> %247, %260
+  %262 = getelementptr inbounds i8, ptr %228, i64 320
+  %263 = load <8 x double>, ptr %262, align 64
+  %264 = fmul contract <8 x double> %252, %263
+  %265 = getelementptr inbounds i8, ptr %228, i64 704
   %266 = load <8 x double>, ptr %265, align 64
-  %267 = getelementptr inbounds i8, ptr %237, i64 704
+  %267 = getelementptr inbounds i8, ptr %228, i64 384
   %268 = load <8 x double>, ptr %267, align 64
-  %269 = getelementptr inbounds i8, ptr %237, i64 384
-  %270 = load <8 x double>, ptr %269, align 64
-  %271 = getelementptr inbounds i8, ptr %237, i64 448
-  %272 = load <8 x double>, ptr %271, align 64
-  %273 = getelementptr inbounds i8, ptr %237, i64 512
+  %269 = fmul contract <8 x double> %242, %268
+  %270 = getelementptr inbounds i8, ptr %228, i64 448
+  %271 = load <8 x double>, ptr %270, align 64
+  %272 = fmul contract <8 x double> %247, %271
+  %273 = getelementptr inbounds i8, ptr %228, i64 512
   %274 = load <8 x double>, ptr %273, align 64
-  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %10)
-  br label %275
+  %275 = fmul contract <8 x double> %252, %274
+  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %8)
+  br label %276
 
-275:
-  %276 = phi i64 [ 0, %234 ], [ %314, %313 ]
-  %277 = mul nuw nsw i64 %276, 3
-  %278 = getelementptr inbounds [9 x <8 x double>], ptr %237, i64 0, i64 %277
-  %279 = load <8 x double>, ptr %278, align 64
-  %280 = add nuw nsw i64 %277, 1
-  %281 = getelementptr inbounds [9 x <8 x double>], ptr %237, i64 0, i64 %280
-  %282 = load <8 x double>, ptr %281, align 64
-  %283 = add nuw nsw i64 %277, 2
-  %284 = getelementptr inbounds [9 x <8 x double>], ptr %237, i64 0, i64 %283
-  %285 = load <8 x double>, ptr %284, align 64
-  br label %316
+276:
+  %277 = phi i64 [ 0, %225 ], [ %305, %304 ]
+  %278 = mul nuw nsw i64 %277, 3
+  %279 = getelementptr inbounds [9 x <8 x double>], ptr %228, i64 0, i64 %278
+  %280 = load <8 x double>, ptr %279, align 64
+  %281 = add nuw nsw i64 %278, 1
+  %282 = getelementptr inbounds [9 x <8 x double>], ptr %228, i64 0, i64 %281
+  %283 = load <8 x double>, ptr %282, align 64
+  %284 = add nuw nsw i64 %278, 2
+  %285 = getelementptr inbounds [9 x <8 x double>], ptr %228, i64 0, i64 %284
+  %286 = load <8 x double>, ptr %285, align 64
+  br label %307
 
-286:
-  %287 = add nuw nsw i64 %235, 1
-  %288 = fmul contract <8 x double> %250, %248
-  %289 = fmul contract <8 x double> %254, %252
-  %290 = fmul contract <8 x double> %258, %256
-  %291 = fmul contract <8 x double> %250, %262
-  %292 = fmul contract <8 x double> %254, %264
-  %293 = fmul contract <8 x double> %258, %266
-  %294 = fmul contract <8 x double> %250, %270
-  %295 = fmul contract <8 x double> %254, %272
-  %296 = fmul contract <8 x double> %258, %274
-  %297 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %287
-  %298 = fadd contract <8 x double> %247, %288
-  %299 = fadd contract <8 x double> %298, %289
-  %300 = fadd contract <8 x double> %299, %290
-  %301 = fadd contract <8 x double> %260, %291
-  %302 = fadd contract <8 x double> %301, %292
-  %303 = fadd contract <8 x double> %302, %293
-  %304 = fadd contract <8 x double> %268, %294
-  %305 = fadd contract <8 x double> %304, %295
-  %306 = fadd contract <8 x double> %305, %296
-  %307 = getelementptr inbounds i8, ptr %297, i64 576
-  store <8 x double> %300, ptr %307, align 64
-  %308 = getelementptr inbounds i8, ptr %297, i64 640
-  store <8 x double> %303, ptr %308, align 64
-  %309 = getelementptr inbounds i8, ptr %297, i64 704
-  store <8 x double> %306, ptr %309, align 64
-  %310 = getelementptr inbounds i8, ptr %236, i64 96
-  %311 = load double, ptr %310, align 8
-  %312 = fcmp contract une double %311, 0.000000e+00
-  br i1 %312, label %341, label %360
+287:
+  %288 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %229
+  %289 = fadd contract <8 x double> %239, %243
+  %290 = fadd contract <8 x double> %289, %248
+  %291 = fadd contract <8 x double> %290, %253
+  %292 = fadd contract <8 x double> %255, %258
+  %293 = fadd contract <8 x double> %292, %261
+  %294 = fadd contract <8 x double> %293, %264
+  %295 = fadd contract <8 x double> %266, %269
+  %296 = fadd contract <8 x double> %295, %272
+  %297 = fadd contract <8 x double> %296, %275
+  %298 = getelementptr inbounds i8, ptr %288, i64 576
+  store <8 x double> %291, ptr %298, align 64
+  %299 = getelementptr inbounds i8, ptr %288, i64 640
+  store <8 x double> %294, ptr %299, align 64
+  %300 = getelementptr inbounds i8, ptr %288, i64 704
+  store <8 x double> %297, ptr %300, align 64
+  %301 = getelementptr inbounds i8, ptr %227, i64 96
+  %302 = load double, ptr %301, align 8
+  %303 = fcmp contract une double %302, 0.000000e+00
+  br i1 %303, label %332, label %351
 
-313:
-  %314 = add nuw nsw i64 %276, 1
-  %315 = icmp eq i64 %314, 3
-  br i1 %315, label %286, label %275
+304:
+  %305 = add nuw nsw i64 %277, 1
+  %306 = icmp eq i64 %305, 3
+  br i1 %306, label %287, label %276
 
-316:
-  %317 = phi i64 [ 0, %275 ], [ %339, %316 ]
-  %318 = getelementptr inbounds [9 x double], ptr %236, i64 0, i64 %317
-  %319 = load double, ptr %318, align 8
-  %320 = insertelement <8 x double> poison, double %319, i64 0
-  %321 = shufflevector <8 x double> %320, <8 x double> poison, <8 x i32> zeroinitializer
-  %322 = fmul contract <8 x double> %279, %321
-  %323 = add nuw nsw i64 %317, 3
-  %324 = getelementptr inbounds [9 x double], ptr %236, i64 0, i64 %323
-  %325 = load double, ptr %324, align 8
-  %326 = insertelement <8 x double> poison, double %325, i64 0
-  %327 = shufflevector <8 x double> %326, <8 x double> poison, <8 x i32> zeroinitializer
-  %328 = fmul contract <8 x double> %282, %327
-  %329 = fadd contract <8 x double> %322, %328
-  %330 = add nuw nsw i64 %317, 6
-  %331 = getelementptr inbounds [9 x double], ptr %236, i64 0, i64 %330
-  %332 = load double, ptr %331, align 8
-  %333 = insertelement <8 x double> poison, double %332, i64 0
-  %334 = shufflevector <8 x double> %333, <8 x double> poison, <8 x i32> zeroinitializer
-  %335 = fmul contract <8 x double> %285, %334
-  %336 = fadd contract <8 x double> %329, %335
-  %337 = add nuw nsw i64 %317, %277
-  %338 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %337
-  store <8 x double> %336, ptr %338, align 64
-  %339 = add nuw nsw i64 %317, 1
-  %340 = icmp eq i64 %339, 3
-  br i1 %340, label %313, label %316
+307:
+  %308 = phi i64 [ 0, %276 ], [ %330, %307 ]
+  %309 = getelementptr inbounds [9 x double], ptr %227, i64 0, i64 %308
+  %310 = load double, ptr %309, align 8
+  %311 = insertelement <8 x double> poison, double %310, i64 0
+  %312 = shufflevector <8 x double> %311, <8 x double> poison, <8 x i32> zeroinitializer
+  %313 = fmul contract <8 x double> %280, %312
+  %314 = add nuw nsw i64 %308, 3
+  %315 = getelementptr inbounds [9 x double], ptr %227, i64 0, i64 %314
+  %316 = load double, ptr %315, align 8
+  %317 = insertelement <8 x double> poison, double %316, i64 0
+  %318 = shufflevector <8 x double> %317, <8 x double> poison, <8 x i32> zeroinitializer
+  %319 = fmul contract <8 x double> %283, %318
+  %320 = fadd contract <8 x double> %313, %319
+  %321 = add nuw nsw i64 %308, 6
+  %322 = getelementptr inbounds [9 x double], ptr %227, i64 0, i64 %321
+  %323 = load double, ptr %322, align 8
+  %324 = insertelement <8 x double> poison, double %323, i64 0
+  %325 = shufflevector <8 x double> %324, <8 x double> poison, <8 x i32> zeroinitializer
+  %326 = fmul contract <8 x double> %286, %325
+  %327 = fadd contract <8 x double> %320, %326
+  %328 = add nuw nsw i64 %308, %278
+  %329 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %328
+  store <8 x double> %327, ptr %329, align 64
+  %330 = add nuw nsw i64 %308, 1
+  %331 = icmp eq i64 %330, 3
+  br i1 %331, label %304, label %307
 
-341:
-  %342 = phi i64 [ %346, %341 ], [ 0, %286 ]
-  %343 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %342
+332:
+  %333 = phi i64 [ %337, %332 ], [ 0, %287 ]
+  %334 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %333
+  %335 = load <8 x double>, ptr %334, align 64
+  %336 = getelementptr inbounds [9 x <8 x double>], ptr %288, i64 0, i64 %333
+  store <8 x double> %335, ptr %336, align 64
+  %337 = add nuw nsw i64 %333, 1
+  %338 = icmp eq i64 %337, 9
+  br i1 %338, label %339, label %332
+
+339:
+  %340 = phi i64 [ %349, %339 ], [ 0, %332 ]
+  %341 = mul nuw nsw i64 %340, 3
+  %342 = add nuw nsw i64 %341, 2
+  %343 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %342
   %344 = load <8 x double>, ptr %343, align 64
-  %345 = getelementptr inbounds [9 x <8 x double>], ptr %297, i64 0, i64 %342
-  store <8 x double> %344, ptr %345, align 64
-  %346 = add nuw nsw i64 %342, 1
-  %347 = icmp eq i64 %346, 9
-  br i1 %347, label %348, label %341
+  %345 = fmul contract <8 x double> %231, %344
+  %346 = getelementptr inbounds [3 x <8 x double>], ptr %298, i64 0, i64 %340
+  %347 = load <8 x double>, ptr %346, align 64
+  %348 = fadd contract <8 x double> %347, %345
+  store <8 x double> %348, ptr %346, align 64
+  %349 = add nuw nsw i64 %340, 1
+  %350 = icmp eq i64 %349, 3
+  br i1 %350, label %427, label %339
 
-348:
-  %349 = phi i64 [ %358, %348 ], [ 0, %341 ]
-  %350 = mul nuw nsw i64 %349, 3
-  %351 = add nuw nsw i64 %350, 2
-  %352 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %351
-  %353 = load <8 x double>, ptr %352, align 64
-  %354 = fmul contract <8 x double> %239, %353
-  %355 = getelementptr inbounds [3 x <8 x double>], ptr %307, i64 0, i64 %349
-  %356 = load <8 x double>, ptr %355, align 64
-  %357 = fadd contract <8 x double> %356, %354
-  store <8 x double> %357, ptr %355, align 64
-  %358 = add nuw nsw i64 %349, 1
-  %359 = icmp eq i64 %358, 3
-  br i1 %359, label %436, label %348
-
-360:
-  %361 = fmul contract <8 x double> %239, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+351:
+  %352 = fmul contract <8 x double> %231, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %353 = fadd contract <8 x double> %352, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %354 = fadd contract <8 x double> %353, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %355 = fmul contract <8 x double> %354, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %356 = fsub contract <8 x double> %231, %355
+  %357 = fmul contract <8 x double> %354, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %358 = fsub contract <8 x double> %356, %357
+  %359 = fmul contract <8 x double> %354, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %360 = fsub contract <8 x double> %358, %359
+  %361 = fmul contract <8 x double> %354, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
   %362 = fadd contract <8 x double> %361, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
   %363 = fadd contract <8 x double> %362, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %364 = fmul contract <8 x double> %363, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %365 = fsub contract <8 x double> %239, %364
-  %366 = fmul contract <8 x double> %363, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %367 = fsub contract <8 x double> %365, %366
-  %368 = fmul contract <8 x double> %363, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %369 = fsub contract <8 x double> %367, %368
-  %370 = fmul contract <8 x double> %363, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %371 = fadd contract <8 x double> %370, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %372 = fadd contract <8 x double> %371, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %373 = fsub contract <8 x double> %370, %372
-  %374 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %373)
-  %375 = fmul contract <8 x double> %374, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %376 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %375
-  %377 = fmul contract <8 x double> %369, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %378 = fmul contract <8 x double> %377, %377
-  %379 = fmul contract <8 x double> %377, %378
-  %380 = fmul contract <8 x double> %378, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %381 = fadd contract <8 x double> %380, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %382 = fmul contract <8 x double> %378, %381
-  %383 = fadd contract <8 x double> %382, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %384 = fmul contract <8 x double> %378, %383
-  %385 = fadd contract <8 x double> %384, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %386 = fmul contract <8 x double> %378, %385
-  %387 = fadd contract <8 x double> %386, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %388 = fmul contract <8 x double> %378, %387
-  %389 = fadd contract <8 x double> %388, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %390 = fmul contract <8 x double> %379, %389
-  %391 = fadd contract <8 x double> %377, %390
-  %392 = fmul contract <8 x double> %378, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %393 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %392
-  %394 = fmul contract <8 x double> %378, %378
-  %395 = fmul contract <8 x double> %378, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %396 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %395
-  %397 = fmul contract <8 x double> %378, %396
-  %398 = fadd contract <8 x double> %397, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %399 = fmul contract <8 x double> %378, %398
-  %400 = fadd contract <8 x double> %399, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %401 = fmul contract <8 x double> %378, %400
-  %402 = fadd contract <8 x double> %401, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %403 = fmul contract <8 x double> %378, %402
-  %404 = fadd contract <8 x double> %403, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
-  %405 = fmul contract <8 x double> %394, %404
-  %406 = fadd contract <8 x double> %393, %405
-  %407 = fmul contract <8 x double> %376, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %408 = fmul contract <8 x double> %407, %391
-  %409 = fmul contract <8 x double> %406, %408
-  %410 = fmul contract <8 x double> %391, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %411 = fmul contract <8 x double> %391, %410
-  %412 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %411
-  %413 = fmul contract <8 x double> %376, %412
-  br label %414
+  %364 = fsub contract <8 x double> %361, %363
+  %365 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %364)
+  %366 = fmul contract <8 x double> %365, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %367 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %366
+  %368 = fmul contract <8 x double> %360, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %369 = fmul contract <8 x double> %368, %368
+  %370 = fmul contract <8 x double> %368, %369
+  %371 = fmul contract <8 x double> %369, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %372 = fadd contract <8 x double> %371, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %373 = fmul contract <8 x double> %369, %372
+  %374 = fadd contract <8 x double> %373, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %375 = fmul contract <8 x double> %369, %374
+  %376 = fadd contract <8 x double> %375, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %377 = fmul contract <8 x double> %369, %376
+  %378 = fadd contract <8 x double> %377, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %379 = fmul contract <8 x double> %369, %378
+  %380 = fadd contract <8 x double> %379, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %381 = fmul contract <8 x double> %370, %380
+  %382 = fadd contract <8 x double> %368, %381
+  %383 = fmul contract <8 x double> %369, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %384 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %383
+  %385 = fmul contract <8 x double> %369, %369
+  %386 = fmul contract <8 x double> %369, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %387 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %386
+  %388 = fmul contract <8 x double> %369, %387
+  %389 = fadd contract <8 x double> %388, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %390 = fmul contract <8 x double> %369, %389
+  %391 = fadd contract <8 x double> %390, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %392 = fmul contract <8 x double> %369, %391
+  %393 = fadd contract <8 x double> %392, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %394 = fmul contract <8 x double> %369, %393
+  %395 = fadd contract <8 x double> %394, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %396 = fmul contract <8 x double> %385, %395
+  %397 = fadd contract <8 x double> %384, %396
+  %398 = fmul contract <8 x double> %367, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %399 = fmul contract <8 x double> %398, %382
+  %400 = fmul contract <8 x double> %397, %399
+  %401 = fmul contract <8 x double> %382, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %402 = fmul contract <8 x double> %382, %401
+  %403 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %402
+  %404 = fmul contract <8 x double> %367, %403
+  br label %405
 
-414:
-  %415 = phi i64 [ 0, %360 ], [ %434, %414 ]
-  %416 = mul nuw nsw i64 %415, 3
-  %417 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %416
-  %418 = load <8 x double>, ptr %417, align 64
-  %419 = fmul contract <8 x double> %413, %418
-  %420 = add nuw nsw i64 %416, 1
-  %421 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %420
-  %422 = load <8 x double>, ptr %421, align 64
-  %423 = fmul contract <8 x double> %409, %422
-  %424 = fadd contract <8 x double> %419, %423
-  %425 = getelementptr inbounds [9 x <8 x double>], ptr %297, i64 0, i64 %416
-  store <8 x double> %424, ptr %425, align 64
-  %426 = fmul contract <8 x double> %413, %422
-  %427 = fmul contract <8 x double> %409, %418
-  %428 = fsub contract <8 x double> %426, %427
-  %429 = getelementptr inbounds [9 x <8 x double>], ptr %297, i64 0, i64 %420
-  store <8 x double> %428, ptr %429, align 64
-  %430 = add nuw nsw i64 %416, 2
-  %431 = getelementptr inbounds [9 x <8 x double>], ptr %10, i64 0, i64 %430
-  %432 = load <8 x double>, ptr %431, align 64
-  %433 = getelementptr inbounds [9 x <8 x double>], ptr %297, i64 0, i64 %430
-  store <8 x double> %432, ptr %433, align 64
-  %434 = add nuw nsw i64 %415, 1
-  %435 = icmp eq i64 %434, 3
-  br i1 %435, label %436, label %414
+405:
+  %406 = phi i64 [ 0, %351 ], [ %425, %405 ]
+  %407 = mul nuw nsw i64 %406, 3
+  %408 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %407
+  %409 = load <8 x double>, ptr %408, align 64
+  %410 = fmul contract <8 x double> %404, %409
+  %411 = add nuw nsw i64 %407, 1
+  %412 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %411
+  %413 = load <8 x double>, ptr %412, align 64
+  %414 = fmul contract <8 x double> %400, %413
+  %415 = fadd contract <8 x double> %410, %414
+  %416 = getelementptr inbounds [9 x <8 x double>], ptr %288, i64 0, i64 %407
+  store <8 x double> %415, ptr %416, align 64
+  %417 = fmul contract <8 x double> %404, %413
+  %418 = fmul contract <8 x double> %400, %409
+  %419 = fsub contract <8 x double> %417, %418
+  %420 = getelementptr inbounds [9 x <8 x double>], ptr %288, i64 0, i64 %411
+  store <8 x double> %419, ptr %420, align 64
+  %421 = add nuw nsw i64 %407, 2
+  %422 = getelementptr inbounds [9 x <8 x double>], ptr %8, i64 0, i64 %421
+  %423 = load <8 x double>, ptr %422, align 64
+  %424 = getelementptr inbounds [9 x <8 x double>], ptr %288, i64 0, i64 %421
+  store <8 x double> %423, ptr %424, align 64
+  %425 = add nuw nsw i64 %406, 1
+  %426 = icmp eq i64 %425, 3
+  br i1 %426, label %427, label %405
 
-436:
-  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %10)
-  %437 = icmp eq i64 %287, %49
-  br i1 %437, label %454, label %234
+427:
+  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %8)
+  %428 = icmp eq i64 %229, %17
+  br i1 %428, label %224, label %225
 
-438:
-  %439 = phi i64 [ %451, %438 ], [ 0, %214 ]
-  %440 = getelementptr inbounds double, ptr %46, i64 %439
-  %441 = load double, ptr %440, align 8
-  %442 = insertelement <8 x double> poison, double %441, i64 0
-  %443 = shufflevector <8 x double> %442, <8 x double> poison, <8 x i32> zeroinitializer
-  %444 = getelementptr inbounds double, ptr %47, i64 %439
-  %445 = load double, ptr %444, align 8
-  %446 = insertelement <8 x double> poison, double %445, i64 0
-  %447 = shufflevector <8 x double> %446, <8 x double> poison, <8 x i32> zeroinitializer
-  %448 = fmul contract <8 x double> %1321, %447
-  %449 = fadd contract <8 x double> %443, %448
-  %450 = getelementptr inbounds [16 x <8 x double>], ptr %11, i64 0, i64 %439
-  store <8 x double> %449, ptr %450, align 64
-  %451 = add nuw nsw i64 %439, 1
-  %452 = icmp eq i64 %451, %49
-  br i1 %452, label %217, label %438
+429:
+  %430 = phi i64 [ %442, %429 ], [ 0, %204 ]
+  %431 = getelementptr inbounds double, ptr %1, i64 %430
+  %432 = load double, ptr %431, align 8
+  %433 = insertelement <8 x double> poison, double %432, i64 0
+  %434 = shufflevector <8 x double> %433, <8 x double> poison, <8 x i32> zeroinitializer
+  %435 = getelementptr inbounds double, ptr %2, i64 %430
+  %436 = load double, ptr %435, align 8
+  %437 = insertelement <8 x double> poison, double %436, i64 0
+  %438 = shufflevector <8 x double> %437, <8 x double> poison, <8 x i32> zeroinitializer
+  %439 = fmul contract <8 x double> %1307, %438
+  %440 = fadd contract <8 x double> %434, %439
+  %441 = getelementptr inbounds [16 x <8 x double>], ptr %9, i64 0, i64 %430
+  store <8 x double> %440, ptr %441, align 64
+  %442 = add nuw nsw i64 %430, 1
+  %443 = icmp eq i64 %442, %17
+  br i1 %443, label %207, label %429
 
-453:
-  br i1 %56, label %470, label %469
+444:
+  br i1 %26, label %461, label %460
 
-454:
-  %455 = phi i64 [ %467, %454 ], [ 1, %436 ]
-  %456 = getelementptr inbounds [17 x double], ptr %15, i64 0, i64 %455
-  %457 = load double, ptr %456, align 8
-  %458 = insertelement <8 x double> poison, double %457, i64 0
-  %459 = shufflevector <8 x double> %458, <8 x double> poison, <8 x i32> zeroinitializer
-  %460 = fmul contract <8 x double> %1324, %459
-  %461 = getelementptr inbounds [17 x double], ptr %25, i64 0, i64 %455
-  %462 = load double, ptr %461, align 8
-  %463 = insertelement <8 x double> poison, double %462, i64 0
-  %464 = shufflevector <8 x double> %463, <8 x double> poison, <8 x i32> zeroinitializer
-  %465 = fadd contract <8 x double> %460, %464
-  %466 = getelementptr inbounds [17 x <8 x double>], ptr %12, i64 0, i64 %455
-  store <8 x double> %465, ptr %466, align 64
-  %467 = add nuw i64 %455, 1
-  %468 = icmp eq i64 %455, %49
-  br i1 %468, label %453, label %454
+445:
+  %446 = phi i64 [ %458, %445 ], [ 1, %224 ]
+  %447 = getelementptr inbounds [17 x double], ptr %13, i64 0, i64 %446
+  %448 = load double, ptr %447, align 8
+  %449 = insertelement <8 x double> poison, double %448, i64 0
+  %450 = shufflevector <8 x double> %449, <8 x double> poison, <8 x i32> zeroinitializer
+  %451 = fmul contract <8 x double> %1310, %450
+  %452 = getelementptr inbounds [17 x double], ptr %78, i64 0, i64 %446
+  %453 = load double, ptr %452, align 8
+  %454 = insertelement <8 x double> poison, double %453, i64 0
+  %455 = shufflevector <8 x double> %454, <8 x double> poison, <8 x i32> zeroinitializer
+  %456 = fadd contract <8 x double> %451, %455
+  %457 = getelementptr inbounds [17 x <8 x double>], ptr %10, i64 0, i64 %446
+  store <8 x double> %456, ptr %457, align 64
+  %458 = add nuw i64 %446, 1
+  %459 = icmp eq i64 %446, %17
+  br i1 %459, label %444, label %445
 
-469:
-  br i1 %185, label %804, label %485
+460:
+  br i1 %163, label %795, label %476
 
-470:
-  %471 = phi i64 [ %483, %470 ], [ 0, %453 ]
-  %472 = getelementptr inbounds [136 x double], ptr %21, i64 0, i64 %471
-  %473 = load double, ptr %472, align 8
-  %474 = insertelement <8 x double> poison, double %473, i64 0
-  %475 = shufflevector <8 x double> %474, <8 x double> poison, <8 x i32> zeroinitializer
-  %476 = fmul contract <8 x double> %1324, %475
-  %477 = getelementptr inbounds [136 x double], ptr %26, i64 0, i64 %471
-  %478 = load double, ptr %477, align 8
-  %479 = insertelement <8 x double> poison, double %478, i64 0
-  %480 = shufflevector <8 x double> %479, <8 x double> poison, <8 x i32> zeroinitializer
-  %481 = fadd contract <8 x double> %476, %480
-  %482 = getelementptr inbounds [136 x <8 x double>], ptr %13, i64 0, i64 %471
-  store <8 x double> %481, ptr %482, align 64
-  %483 = add nuw nsw i64 %471, 1
-  %484 = icmp eq i64 %483, %55
-  br i1 %484, label %469, label %470
+461:
+  %462 = phi i64 [ %474, %461 ], [ 0, %444 ]
+  %463 = getelementptr inbounds [136 x double], ptr %16, i64 0, i64 %462
+  %464 = load double, ptr %463, align 8
+  %465 = insertelement <8 x double> poison, double %464, i64 0
+  %466 = shufflevector <8 x double> %465, <8 x double> poison, <8 x i32> zeroinitializer
+  %467 = fmul contract <8 x double> %1310, %466
+  %468 = getelementptr inbounds [136 x double], ptr %79, i64 0, i64 %462
+  %469 = load double, ptr %468, align 8
+  %470 = insertelement <8 x double> poison, double %469, i64 0
+  %471 = shufflevector <8 x double> %470, <8 x double> poison, <8 x i32> zeroinitializer
+  %472 = fadd contract <8 x double> %467, %471
+  %473 = getelementptr inbounds [136 x <8 x double>], ptr %11, i64 0, i64 %462
+  store <8 x double> %472, ptr %473, align 64
+  %474 = add nuw nsw i64 %462, 1
+  %475 = icmp eq i64 %474, %25
+  br i1 %475, label %460, label %461
 
-485:
-  %486 = phi <8 x i64> [ %801, %800 ], [ zeroinitializer, %469 ]
-  %487 = phi i64 [ %802, %800 ], [ 1, %469 ]
-  %488 = getelementptr inbounds %struct.Sphere.8, ptr %187, i64 %487
-  %489 = getelementptr inbounds i8, ptr %488, i64 24
-  %490 = load double, ptr %489, align 8
-  %491 = fcmp contract olt double %490, 0.000000e+00
-  br i1 %491, label %800, label %492
+476:
+  %477 = phi <8 x i64> [ %792, %791 ], [ zeroinitializer, %460 ]
+  %478 = phi i64 [ %793, %791 ], [ 1, %460 ]
+  %479 = getelementptr inbounds %struct.Sphere.8, ptr %165, i64 %478
+  %480 = getelementptr inbounds i8, ptr %479, i64 24
+  %481 = load double, ptr %480, align 8
+  %482 = fcmp contract olt double %481, 0.000000e+00
+  br i1 %482, label %791, label %483
 
-492:
-  %493 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %487
-  %494 = load double, ptr %488, align 8
-  %495 = getelementptr inbounds i8, ptr %488, i64 8
-  %496 = load double, ptr %495, align 8
-  %497 = getelementptr inbounds i8, ptr %488, i64 16
-  %498 = load double, ptr %497, align 8
-  %499 = getelementptr inbounds i8, ptr %493, i64 576
-  %500 = load <8 x double>, ptr %499, align 64
-  %501 = load <8 x double>, ptr %493, align 64
-  %502 = insertelement <8 x double> poison, double %494, i64 0
-  %503 = shufflevector <8 x double> %502, <8 x double> poison, <8 x i32> zeroinitializer
-  %504 = fmul contract <8 x double> %503, %501
-  %505 = fadd contract <8 x double> %500, %504
-  %506 = getelementptr inbounds i8, ptr %493, i64 64
-  %507 = load <8 x double>, ptr %506, align 64
-  %508 = insertelement <8 x double> poison, double %496, i64 0
-  %509 = shufflevector <8 x double> %508, <8 x double> poison, <8 x i32> zeroinitializer
-  %510 = fmul contract <8 x double> %509, %507
-  %511 = fadd contract <8 x double> %505, %510
-  %512 = getelementptr inbounds i8, ptr %493, i64 128
-  %513 = load <8 x double>, ptr %512, align 64
-  %514 = insertelement <8 x double> poison, double %498, i64 0
-  %515 = shufflevector <8 x double> %514, <8 x double> poison, <8 x i32> zeroinitializer
-  %516 = fmul contract <8 x double> %515, %513
-  %517 = fadd contract <8 x double> %511, %516
-  %518 = getelementptr inbounds i8, ptr %493, i64 640
-  %519 = load <8 x double>, ptr %518, align 64
-  %520 = getelementptr inbounds i8, ptr %493, i64 192
-  %521 = load <8 x double>, ptr %520, align 64
-  %522 = fmul contract <8 x double> %503, %521
-  %523 = fadd contract <8 x double> %519, %522
-  %524 = getelementptr inbounds i8, ptr %493, i64 256
-  %525 = load <8 x double>, ptr %524, align 64
-  %526 = fmul contract <8 x double> %509, %525
-  %527 = fadd contract <8 x double> %523, %526
-  %528 = getelementptr inbounds i8, ptr %493, i64 320
-  %529 = load <8 x double>, ptr %528, align 64
-  %530 = fmul contract <8 x double> %515, %529
-  %531 = fadd contract <8 x double> %527, %530
-  %532 = getelementptr inbounds i8, ptr %493, i64 704
-  %533 = load <8 x double>, ptr %532, align 64
-  %534 = getelementptr inbounds i8, ptr %493, i64 384
-  %535 = load <8 x double>, ptr %534, align 64
-  %536 = fmul contract <8 x double> %503, %535
-  %537 = fadd contract <8 x double> %533, %536
-  %538 = getelementptr inbounds i8, ptr %493, i64 448
-  %539 = load <8 x double>, ptr %538, align 64
-  %540 = fmul contract <8 x double> %509, %539
-  %541 = fadd contract <8 x double> %537, %540
-  %542 = getelementptr inbounds i8, ptr %493, i64 512
-  %543 = load <8 x double>, ptr %542, align 64
-  %544 = fmul contract <8 x double> %515, %543
-  %545 = fadd contract <8 x double> %541, %544
-  %546 = getelementptr inbounds <8 x double>, ptr %12, i64 %487
-  %547 = load <8 x double>, ptr %546, align 64
-  br i1 %189, label %548, label %800
+483:
+  %484 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %478
+  %485 = load double, ptr %479, align 8
+  %486 = getelementptr inbounds i8, ptr %479, i64 8
+  %487 = load double, ptr %486, align 8
+  %488 = getelementptr inbounds i8, ptr %479, i64 16
+  %489 = load double, ptr %488, align 8
+  %490 = getelementptr inbounds i8, ptr %484, i64 576
+  %491 = load <8 x double>, ptr %490, align 64
+  %492 = load <8 x double>, ptr %484, align 64
+  %493 = insertelement <8 x double> poison, double %485, i64 0
+  %494 = shufflevector <8 x double> %493, <8 x double> poison, <8 x i32> zeroinitializer
+  %495 = fmul contract <8 x double> %494, %492
+  %496 = fadd contract <8 x double> %491, %495
+  %497 = getelementptr inbounds i8, ptr %484, i64 64
+  %498 = load <8 x double>, ptr %497, align 64
+  %499 = insertelement <8 x double> poison, double %487, i64 0
+  %500 = shufflevector <8 x double> %499, <8 x double> poison, <8 x i32> zeroinitializer
+  %501 = fmul contract <8 x double> %500, %498
+  %502 = fadd contract <8 x double> %496, %501
+  %503 = getelementptr inbounds i8, ptr %484, i64 128
+  %504 = load <8 x double>, ptr %503, align 64
+  %505 = insertelement <8 x double> poison, double %489, i64 0
+  %506 = shufflevector <8 x double> %505, <8 x double> poison, <8 x i32> zeroinitializer
+  %507 = fmul contract <8 x double> %506, %504
+  %508 = fadd contract <8 x double> %502, %507
+  %509 = getelementptr inbounds i8, ptr %484, i64 640
+  %510 = load <8 x double>, ptr %509, align 64
+  %511 = getelementptr inbounds i8, ptr %484, i64 192
+  %512 = load <8 x double>, ptr %511, align 64
+  %513 = fmul contract <8 x double> %494, %512
+  %514 = fadd contract <8 x double> %510, %513
+  %515 = getelementptr inbounds i8, ptr %484, i64 256
+  %516 = load <8 x double>, ptr %515, align 64
+  %517 = fmul contract <8 x double> %500, %516
+  %518 = fadd contract <8 x double> %514, %517
+  %519 = getelementptr inbounds i8, ptr %484, i64 320
+  %520 = load <8 x double>, ptr %519, align 64
+  %521 = fmul contract <8 x double> %506, %520
+  %522 = fadd contract <8 x double> %518, %521
+  %523 = getelementptr inbounds i8, ptr %484, i64 704
+  %524 = load <8 x double>, ptr %523, align 64
+  %525 = getelementptr inbounds i8, ptr %484, i64 384
+  %526 = load <8 x double>, ptr %525, align 64
+  %527 = fmul contract <8 x double> %494, %526
+  %528 = fadd contract <8 x double> %524, %527
+  %529 = getelementptr inbounds i8, ptr %484, i64 448
+  %530 = load <8 x double>, ptr %529, align 64
+  %531 = fmul contract <8 x double> %500, %530
+  %532 = fadd contract <8 x double> %528, %531
+  %533 = getelementptr inbounds i8, ptr %484, i64 512
+  %534 = load <8 x double>, ptr %533, align 64
+  %535 = fmul contract <8 x double> %506, %534
+  %536 = fadd contract <8 x double> %532, %535
+  %537 = getelementptr inbounds <8 x double>, ptr %10, i64 %478
+  %538 = load <8 x double>, ptr %537, align 64
+  br i1 %168, label %539, label %791
 
-548:
-  %549 = mul nuw nsw i64 %487, %188
-  %550 = getelementptr double, ptr %191, i64 %549
-  %551 = getelementptr inbounds i64, ptr %192, i64 %487
-  %552 = getelementptr inbounds i8, ptr %551, i64 8
-  br label %553
+539:
+  %540 = mul nuw nsw i64 %167, %478
+  %541 = getelementptr double, ptr %172, i64 %540
+  %542 = getelementptr inbounds i64, ptr %174, i64 %478
+  %543 = getelementptr inbounds i8, ptr %542, i64 8
+  br label %544
 
-553:
-  %554 = phi <8 x i64> [ %486, %548 ], [ %797, %796 ]
-  %555 = phi i64 [ 0, %548 ], [ %798, %796 ]
-  %556 = getelementptr inbounds %struct.Object.9, ptr %190, i64 %555
-  %557 = getelementptr double, ptr %550, i64 %555
-  %558 = load double, ptr %557, align 8
-  %559 = getelementptr inbounds i8, ptr %556, i64 120
-  %560 = load double, ptr %559, align 8
-  %561 = fadd contract double %558, %560
-  %562 = fcmp contract olt double %561, -1.000000e+08
-  br i1 %562, label %796, label %563
+544:
+  %545 = phi <8 x i64> [ %477, %539 ], [ %788, %787 ]
+  %546 = phi i64 [ 0, %539 ], [ %789, %787 ]
+  %547 = getelementptr inbounds %struct.Object.9, ptr %170, i64 %546
+  %548 = getelementptr double, ptr %541, i64 %546
+  %549 = load double, ptr %548, align 8
+  %550 = getelementptr inbounds i8, ptr %547, i64 120
+  %551 = load double, ptr %550, align 8
+  %552 = fadd contract double %549, %551
+  %553 = fcmp contract olt double %552, -1.000000e+08
+  br i1 %553, label %787, label %554
 
-563:
-  %564 = fadd contract double %490, %561
-  %565 = insertelement <8 x double> poison, double %564, i64 0
-  %566 = shufflevector <8 x double> %565, <8 x double> poison, <8 x i32> zeroinitializer
-  %567 = fadd contract <8 x double> %547, %566
-  %568 = fcmp contract ogt <8 x double> %567, zeroinitializer
-  %569 = select contract <8 x i1> %568, <8 x double> %567, <8 x double> zeroinitializer
-  %570 = getelementptr inbounds i8, ptr %556, i64 72
+554:
+  %555 = fadd contract double %481, %552
+  %556 = insertelement <8 x double> poison, double %555, i64 0
+  %557 = shufflevector <8 x double> %556, <8 x double> poison, <8 x i32> zeroinitializer
+  %558 = fadd contract <8 x double> %538, %557
+  %559 = fcmp contract ogt <8 x double> %558, zeroinitializer
+  %560 = select contract <8 x i1> %559, <8 x double> %558, <8 x double> zeroinitializer
+  %561 = getelementptr inbounds i8, ptr %547, i64 72
+  %562 = load double, ptr %561, align 8
+  %563 = insertelement <8 x double> poison, double %562, i64 0
+  %564 = shufflevector <8 x double> %563, <8 x double> poison, <8 x i32> zeroinitializer
+  %565 = load double, ptr %547, align 8
+  %566 = insertelement <8 x double> poison, double %565, i64 0
+  %567 = shufflevector <8 x double> %566, <8 x double> poison, <8 x i32> zeroinitializer
+  %568 = fmul contract <8 x double> %508, %567
+  %569 = fadd contract <8 x double> %564, %568
+  %570 = getelementptr inbounds i8, ptr %547, i64 8
   %571 = load double, ptr %570, align 8
   %572 = insertelement <8 x double> poison, double %571, i64 0
   %573 = shufflevector <8 x double> %572, <8 x double> poison, <8 x i32> zeroinitializer
-  %574 = load double, ptr %556, align 8
-  %575 = insertelement <8 x double> poison, double %574, i64 0
-  %576 = shufflevector <8 x double> %575, <8 x double> poison, <8 x i32> zeroinitializer
-  %577 = fmul contract <8 x double> %517, %576
-  %578 = fadd contract <8 x double> %573, %577
-  %579 = getelementptr inbounds i8, ptr %556, i64 8
-  %580 = load double, ptr %579, align 8
-  %581 = insertelement <8 x double> poison, double %580, i64 0
-  %582 = shufflevector <8 x double> %581, <8 x double> poison, <8 x i32> zeroinitializer
-  %583 = fmul contract <8 x double> %531, %582
-  %584 = fadd contract <8 x double> %578, %583
-  %585 = getelementptr inbounds i8, ptr %556, i64 16
-  %586 = load double, ptr %585, align 8
-  %587 = insertelement <8 x double> poison, double %586, i64 0
-  %588 = shufflevector <8 x double> %587, <8 x double> poison, <8 x i32> zeroinitializer
-  %589 = fmul contract <8 x double> %545, %588
-  %590 = fadd contract <8 x double> %584, %589
-  %591 = getelementptr inbounds i8, ptr %556, i64 80
-  %592 = load double, ptr %591, align 8
-  %593 = insertelement <8 x double> poison, double %592, i64 0
-  %594 = shufflevector <8 x double> %593, <8 x double> poison, <8 x i32> zeroinitializer
-  %595 = getelementptr inbounds i8, ptr %556, i64 24
-  %596 = load double, ptr %595, align 8
-  %597 = insertelement <8 x double> poison, double %596, i64 0
-  %598 = shufflevector <8 x double> %597, <8 x double> poison, <8 x i32> zeroinitializer
-  %599 = fmul contract <8 x double> %517, %598
-  %600 = fadd contract <8 x double> %594, %599
-  %601 = getelementptr inbounds i8, ptr %556, i64 32
-  %602 = load double, ptr %601, align 8
-  %603 = insertelement <8 x double> poison, double %602, i64 0
-  %604 = shufflevector <8 x double> %603, <8 x double> poison, <8 x i32> zeroinitializer
-  %605 = fmul contract <8 x double> %531, %604
-  %606 = fadd contract <8 x double> %600, %605
-  %607 = getelementptr inbounds i8, ptr %556, i64 40
-  %608 = load double, ptr %607, align 8
-  %609 = insertelement <8 x double> poison, double %608, i64 0
-  %610 = shufflevector <8 x double> %609, <8 x double> poison, <8 x i32> zeroinitializer
-  %611 = fmul contract <8 x double> %545, %610
-  %612 = fadd contract <8 x double> %606, %611
-  %613 = getelementptr inbounds i8, ptr %556, i64 88
-  %614 = load double, ptr %613, align 8
-  %615 = insertelement <8 x double> poison, double %614, i64 0
-  %616 = shufflevector <8 x double> %615, <8 x double> poison, <8 x i32> zeroinitializer
-  %617 = getelementptr inbounds i8, ptr %556, i64 48
-  %618 = load double, ptr %617, align 8
-  %619 = insertelement <8 x double> poison, double %618, i64 0
-  %620 = shufflevector <8 x double> %619, <8 x double> poison, <8 x i32> zeroinitializer
-  %621 = fmul contract <8 x double> %517, %620
-  %622 = fadd contract <8 x double> %616, %621
-  %623 = getelementptr inbounds i8, ptr %556, i64 56
-  %624 = load double, ptr %623, align 8
-  %625 = insertelement <8 x double> poison, double %624, i64 0
-  %626 = shufflevector <8 x double> %625, <8 x double> poison, <8 x i32> zeroinitializer
-  %627 = fmul contract <8 x double> %531, %626
-  %628 = fadd contract <8 x double> %622, %627
-  %629 = getelementptr inbounds i8, ptr %556, i64 64
-  %630 = load double, ptr %629, align 8
-  %631 = insertelement <8 x double> poison, double %630, i64 0
-  %632 = shufflevector <8 x double> %631, <8 x double> poison, <8 x i32> zeroinitializer
-  %633 = fmul contract <8 x double> %545, %632
-  %634 = fadd contract <8 x double> %628, %633
-  %635 = fmul contract <8 x double> %590, zeroinitializer
-  %636 = getelementptr inbounds i8, ptr %556, i64 136
-  %637 = load double, ptr %636, align 8
-  %638 = fcmp contract une double %637, 0.000000e+00
-  %639 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %634)
-  %640 = select contract i1 %638, <8 x double> %634, <8 x double> %639
-  %641 = getelementptr inbounds i8, ptr %556, i64 128
-  %642 = load double, ptr %641, align 8
-  %643 = fcmp contract une double %642, 0.000000e+00
-  br i1 %643, label %644, label %649
+  %574 = fmul contract <8 x double> %522, %573
+  %575 = fadd contract <8 x double> %569, %574
+  %576 = getelementptr inbounds i8, ptr %547, i64 16
+  %577 = load double, ptr %576, align 8
+  %578 = insertelement <8 x double> poison, double %577, i64 0
+  %579 = shufflevector <8 x double> %578, <8 x double> poison, <8 x i32> zeroinitializer
+  %580 = fmul contract <8 x double> %536, %579
+  %581 = fadd contract <8 x double> %575, %580
+  %582 = getelementptr inbounds i8, ptr %547, i64 80
+  %583 = load double, ptr %582, align 8
+  %584 = insertelement <8 x double> poison, double %583, i64 0
+  %585 = shufflevector <8 x double> %584, <8 x double> poison, <8 x i32> zeroinitializer
+  %586 = getelementptr inbounds i8, ptr %547, i64 24
+  %587 = load double, ptr %586, align 8
+  %588 = insertelement <8 x double> poison, double %587, i64 0
+  %589 = shufflevector <8 x double> %588, <8 x double> poison, <8 x i32> zeroinitializer
+  %590 = fmul contract <8 x double> %508, %589
+  %591 = fadd contract <8 x double> %585, %590
+  %592 = getelementptr inbounds i8, ptr %547, i64 32
+  %593 = load double, ptr %592, align 8
+  %594 = insertelement <8 x double> poison, double %593, i64 0
+  %595 = shufflevector <8 x double> %594, <8 x double> poison, <8 x i32> zeroinitializer
+  %596 = fmul contract <8 x double> %522, %595
+  %597 = fadd contract <8 x double> %591, %596
+  %598 = getelementptr inbounds i8, ptr %547, i64 40
+  %599 = load double, ptr %598, align 8
+  %600 = insertelement <8 x double> poison, double %599, i64 0
+  %601 = shufflevector <8 x double> %600, <8 x double> poison, <8 x i32> zeroinitializer
+  %602 = fmul contract <8 x double> %536, %601
+  %603 = fadd contract <8 x double> %597, %602
+  %604 = getelementptr inbounds i8, ptr %547, i64 88
+  %605 = load double, ptr %604, align 8
+  %606 = insertelement <8 x double> poison, double %605, i64 0
+  %607 = shufflevector <8 x double> %606, <8 x double> poison, <8 x i32> zeroinitializer
+  %608 = getelementptr inbounds i8, ptr %547, i64 48
+  %609 = load double, ptr %608, align 8
+  %610 = insertelement <8 x double> poison, double %609, i64 0
+  %611 = shufflevector <8 x double> %610, <8 x double> poison, <8 x i32> zeroinitializer
+  %612 = fmul contract <8 x double> %508, %611
+  %613 = fadd contract <8 x double> %607, %612
+  %614 = getelementptr inbounds i8, ptr %547, i64 56
+  %615 = load double, ptr %614, align 8
+  %616 = insertelement <8 x double> poison, double %615, i64 0
+  %617 = shufflevector <8 x double> %616, <8 x double> poison, <8 x i32> zeroinitializer
+  %618 = fmul contract <8 x double> %522, %617
+  %619 = fadd contract <8 x double> %613, %618
+  %620 = getelementptr inbounds i8, ptr %547, i64 64
+  %621 = load double, ptr %620, align 8
+  %622 = insertelement <8 x double> poison, double %621, i64 0
+  %623 = shufflevector <8 x double> %622, <8 x double> poison, <8 x i32> zeroinitializer
+  %624 = fmul contract <8 x double> %536, %623
+  %625 = fadd contract <8 x double> %619, %624
+  %626 = fmul contract <8 x double> %581, zeroinitializer
+  %627 = getelementptr inbounds i8, ptr %547, i64 136
+  %628 = load double, ptr %627, align 8
+  %629 = fcmp contract une double %628, 0.000000e+00
+  %630 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %625)
+  %631 = select contract i1 %629, <8 x double> %625, <8 x double> %630
+  %632 = getelementptr inbounds i8, ptr %547, i64 128
+  %633 = load double, ptr %632, align 8
+  %634 = fcmp contract une double %633, 0.000000e+00
+  br i1 %634, label %635, label %640
 
-644:
-  %645 = fmul contract <8 x double> %590, %590
-  %646 = fmul contract <8 x double> %612, %612
-  %647 = fadd contract <8 x double> %645, %646
-  %648 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %647)
-  br label %651
+635:
+  %636 = fmul contract <8 x double> %581, %581
+  %637 = fmul contract <8 x double> %603, %603
+  %638 = fadd contract <8 x double> %636, %637
+  %639 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %638)
+  br label %642
 
-649:
-  %650 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %590)
-  br label %651
+640:
+  %641 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %581)
+  br label %642
 
-651:
-  %652 = phi contract <8 x double> [ %648, %644 ], [ %650, %649 ]
-  %653 = getelementptr inbounds i8, ptr %556, i64 96
-  %654 = load double, ptr %653, align 8
-  %655 = insertelement <8 x double> poison, double %654, i64 0
-  %656 = shufflevector <8 x double> %655, <8 x double> poison, <8 x i32> zeroinitializer
-  %657 = fsub contract <8 x double> %652, %656
-  %658 = fcmp contract ogt <8 x double> %657, %635
-  %659 = select contract <8 x i1> %658, <8 x double> %657, <8 x double> %635
-  %660 = getelementptr inbounds i8, ptr %556, i64 112
-  %661 = load double, ptr %660, align 8
-  %662 = insertelement <8 x double> poison, double %661, i64 0
-  %663 = shufflevector <8 x double> %662, <8 x double> poison, <8 x i32> zeroinitializer
-  %664 = fsub contract <8 x double> %640, %663
-  %665 = fcmp contract ogt <8 x double> %664, %635
-  %666 = select contract <8 x i1> %665, <8 x double> %664, <8 x double> %635
-  %667 = fmul contract <8 x double> %659, %659
-  %668 = fmul contract <8 x double> %666, %666
-  %669 = fadd contract <8 x double> %667, %668
-  br i1 %643, label %681, label %670
+642:
+  %643 = phi contract <8 x double> [ %639, %635 ], [ %641, %640 ]
+  %644 = getelementptr inbounds i8, ptr %547, i64 96
+  %645 = load double, ptr %644, align 8
+  %646 = insertelement <8 x double> poison, double %645, i64 0
+  %647 = shufflevector <8 x double> %646, <8 x double> poison, <8 x i32> zeroinitializer
+  %648 = fsub contract <8 x double> %643, %647
+  %649 = fcmp contract ogt <8 x double> %648, %626
+  %650 = select contract <8 x i1> %649, <8 x double> %648, <8 x double> %626
+  %651 = getelementptr inbounds i8, ptr %547, i64 112
+  %652 = load double, ptr %651, align 8
+  %653 = insertelement <8 x double> poison, double %652, i64 0
+  %654 = shufflevector <8 x double> %653, <8 x double> poison, <8 x i32> zeroinitializer
+  %655 = fsub contract <8 x double> %631, %654
+  %656 = fcmp contract ogt <8 x double> %655, %626
+  %657 = select contract <8 x i1> %656, <8 x double> %655, <8 x double> %626
+  %658 = fmul contract <8 x double> %650, %650
+  %659 = fmul contract <8 x double> %657, %657
+  %660 = fadd contract <8 x double> %658, %659
+  br i1 %634, label %672, label %661
 
-670:
-  %671 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %612)
-  %672 = getelementptr inbounds i8, ptr %556, i64 104
-  %673 = load double, ptr %672, align 8
-  %674 = insertelement <8 x double> poison, double %673, i64 0
-  %675 = shufflevector <8 x double> %674, <8 x double> poison, <8 x i32> zeroinitializer
-  %676 = fsub contract <8 x double> %671, %675
-  %677 = fcmp contract ogt <8 x double> %676, %635
-  %678 = select contract <8 x i1> %677, <8 x double> %676, <8 x double> %635
-  %679 = fmul contract <8 x double> %678, %678
-  %680 = fadd contract <8 x double> %669, %679
-  br label %681
+661:
+  %662 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %603)
+  %663 = getelementptr inbounds i8, ptr %547, i64 104
+  %664 = load double, ptr %663, align 8
+  %665 = insertelement <8 x double> poison, double %664, i64 0
+  %666 = shufflevector <8 x double> %665, <8 x double> poison, <8 x i32> zeroinitializer
+  %667 = fsub contract <8 x double> %662, %666
+  %668 = fcmp contract ogt <8 x double> %667, %626
+  %669 = select contract <8 x i1> %668, <8 x double> %667, <8 x double> %626
+  %670 = fmul contract <8 x double> %669, %669
+  %671 = fadd contract <8 x double> %660, %670
+  br label %672
 
-681:
-  %682 = phi <8 x double> [ %680, %670 ], [ %669, %651 ]
-  %683 = fmul contract <8 x double> %569, %569
-  %684 = fcmp contract olt <8 x double> %682, %683
-  %685 = bitcast <8 x i1> %684 to i8
-  %686 = icmp eq i8 %685, 0
-  br i1 %686, label %796, label %687
+672:
+  %673 = phi <8 x double> [ %671, %661 ], [ %660, %642 ]
+  %674 = fmul contract <8 x double> %560, %560
+  %675 = fcmp contract olt <8 x double> %673, %674
+  %676 = bitcast <8 x i1> %675 to i8
+  %677 = icmp eq i8 %676, 0
+  br i1 %677, label %787, label %678
 
-687:
-  %688 = load i64, ptr %551, align 8
-  %689 = load i64, ptr %552, align 8
-  %690 = icmp slt i64 %688, %689
-  br i1 %690, label %691, label %693
+678:
+  %679 = load i64, ptr %542, align 8
+  %680 = load i64, ptr %543, align 8
+  %681 = icmp slt i64 %679, %680
+  br i1 %681, label %682, label %684
 
-691:
-  %692 = getelementptr inbounds i8, ptr %556, i64 104
-  br label %699
+682:
+  %683 = getelementptr inbounds i8, ptr %547, i64 104
+  br label %690
 
-693:
-  %694 = phi <8 x i64> [ zeroinitializer, %687 ], [ %793, %789 ]
-  %695 = or <8 x i64> %694, %554
-  %696 = icmp eq <8 x i64> %695, zeroinitializer
-  %697 = bitcast <8 x i1> %696 to i8
-  %698 = icmp eq i8 %697, 0
-  br i1 %698, label %1307, label %796
+684:
+  %685 = phi <8 x i64> [ zeroinitializer, %678 ], [ %784, %780 ]
+  %686 = or <8 x i64> %685, %545
+  %687 = icmp eq <8 x i64> %686, zeroinitializer
+  %688 = bitcast <8 x i1> %687 to i8
+  %689 = icmp eq i8 %688, 0
+  br i1 %689, label %1293, label %787
 
-699:
-  %700 = phi <8 x i64> [ zeroinitializer, %691 ], [ %793, %789 ]
-  %701 = phi i64 [ %688, %691 ], [ %794, %789 ]
-  %702 = getelementptr inbounds %struct.Sphere.8, ptr %193, i64 %701
-  %703 = getelementptr inbounds i8, ptr %702, i64 24
+690:
+  %691 = phi <8 x i64> [ zeroinitializer, %682 ], [ %784, %780 ]
+  %692 = phi i64 [ %679, %682 ], [ %785, %780 ]
+  %693 = getelementptr inbounds %struct.Sphere.8, ptr %176, i64 %692
+  %694 = getelementptr inbounds i8, ptr %693, i64 24
+  %695 = load double, ptr %694, align 8
+  %696 = fadd contract double %552, %695
+  %697 = insertelement <8 x double> poison, double %696, i64 0
+  %698 = shufflevector <8 x double> %697, <8 x double> poison, <8 x i32> zeroinitializer
+  %699 = fadd contract <8 x double> %538, %698
+  %700 = fcmp contract ogt <8 x double> %699, zeroinitializer
+  %701 = select contract <8 x i1> %700, <8 x double> %699, <8 x double> zeroinitializer
+  %702 = load double, ptr %693, align 8
+  %703 = getelementptr inbounds i8, ptr %693, i64 8
   %704 = load double, ptr %703, align 8
-  %705 = fadd contract double %561, %704
-  %706 = insertelement <8 x double> poison, double %705, i64 0
-  %707 = shufflevector <8 x double> %706, <8 x double> poison, <8 x i32> zeroinitializer
-  %708 = fadd contract <8 x double> %547, %707
-  %709 = fcmp contract ogt <8 x double> %708, zeroinitializer
-  %710 = select contract <8 x i1> %709, <8 x double> %708, <8 x double> zeroinitializer
-  %711 = load double, ptr %702, align 8
-  %712 = getelementptr inbounds i8, ptr %702, i64 8
-  %713 = load double, ptr %712, align 8
-  %714 = getelementptr inbounds i8, ptr %702, i64 16
-  %715 = load double, ptr %714, align 8
-  %716 = insertelement <8 x double> poison, double %711, i64 0
-  %717 = shufflevector <8 x double> %716, <8 x double> poison, <8 x i32> zeroinitializer
-  %718 = fmul contract <8 x double> %501, %717
-  %719 = fadd contract <8 x double> %500, %718
-  %720 = insertelement <8 x double> poison, double %713, i64 0
-  %721 = shufflevector <8 x double> %720, <8 x double> poison, <8 x i32> zeroinitializer
-  %722 = fmul contract <8 x double> %507, %721
-  %723 = fadd contract <8 x double> %719, %722
-  %724 = insertelement <8 x double> poison, double %715, i64 0
-  %725 = shufflevector <8 x double> %724, <8 x double> poison, <8 x i32> zeroinitializer
-  %726 = fmul contract <8 x double> %513, %725
-  %727 = fadd contract <8 x double> %723, %726
-  %728 = fmul contract <8 x double> %521, %717
-  %729 = fadd contract <8 x double> %519, %728
-  %730 = fmul contract <8 x double> %525, %721
-  %731 = fadd contract <8 x double> %729, %730
-  %732 = fmul contract <8 x double> %529, %725
-  %733 = fadd contract <8 x double> %731, %732
-  %734 = fmul contract <8 x double> %535, %717
-  %735 = fadd contract <8 x double> %533, %734
-  %736 = fmul contract <8 x double> %539, %721
-  %737 = fadd contract <8 x double> %735, %736
-  %738 = fmul contract <8 x double> %543, %725
-  %739 = fadd contract <8 x double> %737, %738
-  %740 = fmul contract <8 x double> %576, %727
-  %741 = fadd contract <8 x double> %573, %740
-  %742 = fmul contract <8 x double> %582, %733
-  %743 = fadd contract <8 x double> %742, %741
-  %744 = fmul contract <8 x double> %588, %739
-  %745 = fadd contract <8 x double> %744, %743
-  %746 = fmul contract <8 x double> %598, %727
-  %747 = fadd contract <8 x double> %594, %746
-  %748 = fmul contract <8 x double> %604, %733
-  %749 = fadd contract <8 x double> %748, %747
-  %750 = fmul contract <8 x double> %610, %739
-  %751 = fadd contract <8 x double> %750, %749
-  %752 = fmul contract <8 x double> %620, %727
-  %753 = fadd contract <8 x double> %616, %752
-  %754 = fmul contract <8 x double> %626, %733
-  %755 = fadd contract <8 x double> %754, %753
-  %756 = fmul contract <8 x double> %632, %739
-  %757 = fadd contract <8 x double> %756, %755
-  %758 = fmul contract <8 x double> %745, zeroinitializer
-  %759 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %757)
-  %760 = select contract i1 %638, <8 x double> %757, <8 x double> %759
-  br i1 %643, label %761, label %766
+  %705 = getelementptr inbounds i8, ptr %693, i64 16
+  %706 = load double, ptr %705, align 8
+  %707 = insertelement <8 x double> poison, double %702, i64 0
+  %708 = shufflevector <8 x double> %707, <8 x double> poison, <8 x i32> zeroinitializer
+  %709 = fmul contract <8 x double> %492, %708
+  %710 = fadd contract <8 x double> %491, %709
+  %711 = insertelement <8 x double> poison, double %704, i64 0
+  %712 = shufflevector <8 x double> %711, <8 x double> poison, <8 x i32> zeroinitializer
+  %713 = fmul contract <8 x double> %498, %712
+  %714 = fadd contract <8 x double> %710, %713
+  %715 = insertelement <8 x double> poison, double %706, i64 0
+  %716 = shufflevector <8 x double> %715, <8 x double> poison, <8 x i32> zeroinitializer
+  %717 = fmul contract <8 x double> %504, %716
+  %718 = fadd contract <8 x double> %714, %717
+  %719 = fmul contract <8 x double> %512, %708
+  %720 = fadd contract <8 x double> %510, %719
+  %721 = fmul contract <8 x double> %516, %712
+  %722 = fadd contract <8 x double> %720, %721
+  %723 = fmul contract <8 x double> %520, %716
+  %724 = fadd contract <8 x double> %722, %723
+  %725 = fmul contract <8 x double> %526, %708
+  %726 = fadd contract <8 x double> %524, %725
+  %727 = fmul contract <8 x double> %530, %712
+  %728 = fadd contract <8 x double> %726, %727
+  %729 = fmul contract <8 x double> %534, %716
+  %730 = fadd contract <8 x double> %728, %729
+  %731 = fmul contract <8 x double> %567, %718
+  %732 = fadd contract <8 x double> %564, %731
+  %733 = fmul contract <8 x double> %573, %724
+  %734 = fadd contract <8 x double> %733, %732
+  %735 = fmul contract <8 x double> %579, %730
+  %736 = fadd contract <8 x double> %735, %734
+  %737 = fmul contract <8 x double> %589, %718
+  %738 = fadd contract <8 x double> %585, %737
+  %739 = fmul contract <8 x double> %595, %724
+  %740 = fadd contract <8 x double> %739, %738
+  %741 = fmul contract <8 x double> %601, %730
+  %742 = fadd contract <8 x double> %741, %740
+  %743 = fmul contract <8 x double> %611, %718
+  %744 = fadd contract <8 x double> %607, %743
+  %745 = fmul contract <8 x double> %617, %724
+  %746 = fadd contract <8 x double> %745, %744
+  %747 = fmul contract <8 x double> %623, %730
+  %748 = fadd contract <8 x double> %747, %746
+  %749 = fmul contract <8 x double> %736, zeroinitializer
+  %750 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %748)
+  %751 = select contract i1 %629, <8 x double> %748, <8 x double> %750
+  br i1 %634, label %752, label %757
 
-761:
-  %762 = fmul contract <8 x double> %745, %745
-  %763 = fmul contract <8 x double> %751, %751
-  %764 = fadd contract <8 x double> %762, %763
-  %765 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %764)
-  br label %768
+752:
+  %753 = fmul contract <8 x double> %736, %736
+  %754 = fmul contract <8 x double> %742, %742
+  %755 = fadd contract <8 x double> %753, %754
+  %756 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %755)
+  br label %759
 
-766:
-  %767 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %745)
-  br label %768
+757:
+  %758 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %736)
+  br label %759
 
-768:
-  %769 = phi contract <8 x double> [ %765, %761 ], [ %767, %766 ]
-  %770 = fsub contract <8 x double> %769, %656
-  %771 = fcmp contract ogt <8 x double> %770, %758
-  %772 = select contract <8 x i1> %771, <8 x double> %770, <8 x double> %758
-  %773 = fsub contract <8 x double> %760, %663
-  %774 = fcmp contract ogt <8 x double> %773, %758
-  %775 = select contract <8 x i1> %774, <8 x double> %773, <8 x double> %758
-  %776 = fmul contract <8 x double> %772, %772
-  %777 = fmul contract <8 x double> %775, %775
-  %778 = fadd contract <8 x double> %777, %776
-  br i1 %643, label %789, label %779
+759:
+  %760 = phi contract <8 x double> [ %756, %752 ], [ %758, %757 ]
+  %761 = fsub contract <8 x double> %760, %647
+  %762 = fcmp contract ogt <8 x double> %761, %749
+  %763 = select contract <8 x i1> %762, <8 x double> %761, <8 x double> %749
+  %764 = fsub contract <8 x double> %751, %654
+  %765 = fcmp contract ogt <8 x double> %764, %749
+  %766 = select contract <8 x i1> %765, <8 x double> %764, <8 x double> %749
+  %767 = fmul contract <8 x double> %763, %763
+  %768 = fmul contract <8 x double> %766, %766
+  %769 = fadd contract <8 x double> %768, %767
+  br i1 %634, label %780, label %770
 
-779:
-  %780 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %751)
-  %781 = load double, ptr %692, align 8
-  %782 = insertelement <8 x double> poison, double %781, i64 0
-  %783 = shufflevector <8 x double> %782, <8 x double> poison, <8 x i32> zeroinitializer
-  %784 = fsub contract <8 x double> %780, %783
-  %785 = fcmp contract ogt <8 x double> %784, %758
-  %786 = select contract <8 x i1> %785, <8 x double> %784, <8 x double> %758
-  %787 = fmul contract <8 x double> %786, %786
-  %788 = fadd contract <8 x double> %778, %787
-  br label %789
+770:
+  %771 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %742)
+  %772 = load double, ptr %683, align 8
+  %773 = insertelement <8 x double> poison, double %772, i64 0
+  %774 = shufflevector <8 x double> %773, <8 x double> poison, <8 x i32> zeroinitializer
+  %775 = fsub contract <8 x double> %771, %774
+  %776 = fcmp contract ogt <8 x double> %775, %749
+  %777 = select contract <8 x i1> %776, <8 x double> %775, <8 x double> %749
+  %778 = fmul contract <8 x double> %777, %777
+  %779 = fadd contract <8 x double> %769, %778
+  br label %780
 
-789:
-  %790 = phi <8 x double> [ %788, %779 ], [ %778, %768 ]
-  %791 = fmul contract <8 x double> %710, %710
-  %792 = fcmp contract olt <8 x double> %790, %791
-  %793 = select <8 x i1> %792, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %700
-  %794 = add nsw i64 %701, 1
-  %795 = icmp eq i64 %794, %689
-  br i1 %795, label %693, label %699
+780:
+  %781 = phi <8 x double> [ %779, %770 ], [ %769, %759 ]
+  %782 = fmul contract <8 x double> %701, %701
+  %783 = fcmp contract olt <8 x double> %781, %782
+  %784 = select <8 x i1> %783, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %691
+  %785 = add nsw i64 %692, 1
+  %786 = icmp eq i64 %785, %680
+  br i1 %786, label %684, label %690
 
-796:
-  %797 = phi <8 x i64> [ %554, %681 ], [ %554, %553 ], [ %695, %693 ]
-  %798 = add nuw nsw i64 %555, 1
-  %799 = icmp eq i64 %798, %188
-  br i1 %799, label %800, label %553
+787:
+  %788 = phi <8 x i64> [ %545, %672 ], [ %545, %544 ], [ %686, %684 ]
+  %789 = add nuw nsw i64 %546, 1
+  %790 = icmp eq i64 %789, %167
+  br i1 %790, label %791, label %544
 
-800:
-  %801 = phi <8 x i64> [ %486, %485 ], [ %486, %492 ], [ %797, %796 ]
-  %802 = add nuw i64 %487, 1
-  %803 = icmp eq i64 %487, %49
-  br i1 %803, label %804, label %485
+791:
+  %792 = phi <8 x i64> [ %477, %476 ], [ %477, %483 ], [ %788, %787 ]
+  %793 = add nuw i64 %478, 1
+  %794 = icmp eq i64 %478, %17
+  br i1 %794, label %795, label %476
 
-804:
-  %805 = phi <8 x i64> [ zeroinitializer, %469 ], [ %801, %800 ]
-  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %8)
-  br i1 %56, label %808, label %806
+795:
+  %796 = phi <8 x i64> [ zeroinitializer, %460 ], [ %792, %791 ]
+  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %6)
+  br i1 %26, label %799, label %797
 
-806:
-  %807 = phi <8 x i64> [ %805, %804 ], [ %1304, %1302 ]
-  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %8)
-  br label %1307
+797:
+  %798 = phi <8 x i64> [ %796, %795 ], [ %1290, %1288 ]
+  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
+  br label %1293
 
-808:
-  %809 = phi <8 x i64> [ %1304, %1302 ], [ %805, %804 ]
-  %810 = phi i64 [ %1303, %1302 ], [ 0, %804 ]
-  %811 = phi i64 [ %1305, %1302 ], [ 0, %804 ]
-  %812 = getelementptr inbounds %struct.LinkPair, ptr %194, i64 %811
-  %813 = load i64, ptr %812, align 8
-  %814 = getelementptr inbounds %struct.Sphere.8, ptr %195, i64 %813
-  %815 = getelementptr inbounds i8, ptr %812, i64 8
-  %816 = load i64, ptr %815, align 8
-  %817 = getelementptr inbounds %struct.Sphere.8, ptr %195, i64 %816
-  %818 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %813
-  %819 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %816
-  %820 = getelementptr inbounds <8 x double>, ptr %13, i64 %811
-  %821 = load <8 x double>, ptr %820, align 64
-  %822 = getelementptr inbounds double, ptr %196, i64 %811
-  %823 = load double, ptr %822, align 8
-  %824 = insertelement <8 x double> poison, double %823, i64 0
-  %825 = shufflevector <8 x double> %824, <8 x double> poison, <8 x i32> zeroinitializer
-  %826 = fadd contract <8 x double> %821, %825
-  %827 = load double, ptr %817, align 8
-  %828 = getelementptr inbounds i8, ptr %817, i64 8
-  %829 = load double, ptr %828, align 8
-  %830 = getelementptr inbounds i8, ptr %817, i64 16
-  %831 = load double, ptr %830, align 8
-  %832 = getelementptr inbounds i8, ptr %819, i64 576
-  %833 = load <8 x double>, ptr %832, align 64
-  %834 = load <8 x double>, ptr %819, align 64
-  %835 = insertelement <8 x double> poison, double %827, i64 0
-  %836 = shufflevector <8 x double> %835, <8 x double> poison, <8 x i32> zeroinitializer
-  %837 = fmul contract <8 x double> %836, %834
-  %838 = fadd contract <8 x double> %833, %837
-  %839 = getelementptr inbounds i8, ptr %819, i64 64
-  %840 = load <8 x double>, ptr %839, align 64
-  %841 = insertelement <8 x double> poison, double %829, i64 0
-  %842 = shufflevector <8 x double> %841, <8 x double> poison, <8 x i32> zeroinitializer
-  %843 = fmul contract <8 x double> %842, %840
-  %844 = fadd contract <8 x double> %838, %843
-  %845 = getelementptr inbounds i8, ptr %819, i64 128
-  %846 = load <8 x double>, ptr %845, align 64
-  %847 = insertelement <8 x double> poison, double %831, i64 0
-  %848 = shufflevector <8 x double> %847, <8 x double> poison, <8 x i32> zeroinitializer
-  %849 = fmul contract <8 x double> %848, %846
-  %850 = fadd contract <8 x double> %844, %849
-  %851 = getelementptr inbounds i8, ptr %819, i64 640
-  %852 = load <8 x double>, ptr %851, align 64
-  %853 = getelementptr inbounds i8, ptr %819, i64 192
-  %854 = load <8 x double>, ptr %853, align 64
-  %855 = fmul contract <8 x double> %836, %854
-  %856 = fadd contract <8 x double> %852, %855
-  %857 = getelementptr inbounds i8, ptr %819, i64 256
-  %858 = load <8 x double>, ptr %857, align 64
-  %859 = fmul contract <8 x double> %842, %858
-  %860 = fadd contract <8 x double> %856, %859
-  %861 = getelementptr inbounds i8, ptr %819, i64 320
-  %862 = load <8 x double>, ptr %861, align 64
-  %863 = fmul contract <8 x double> %848, %862
-  %864 = fadd contract <8 x double> %860, %863
-  %865 = getelementptr inbounds i8, ptr %819, i64 704
-  %866 = load <8 x double>, ptr %865, align 64
-  %867 = getelementptr inbounds i8, ptr %819, i64 384
-  %868 = load <8 x double>, ptr %867, align 64
-  %869 = fmul contract <8 x double> %836, %868
-  %870 = fadd contract <8 x double> %866, %869
-  %871 = getelementptr inbounds i8, ptr %819, i64 448
-  %872 = load <8 x double>, ptr %871, align 64
-  %873 = fmul contract <8 x double> %842, %872
-  %874 = fadd contract <8 x double> %870, %873
-  %875 = getelementptr inbounds i8, ptr %819, i64 512
-  %876 = load <8 x double>, ptr %875, align 64
-  %877 = fmul contract <8 x double> %848, %876
-  %878 = fadd contract <8 x double> %874, %877
-  %879 = getelementptr inbounds i8, ptr %814, i64 24
-  %880 = load double, ptr %879, align 8
-  %881 = getelementptr inbounds i8, ptr %817, i64 24
+799:
+  %800 = phi <8 x i64> [ %1290, %1288 ], [ %796, %795 ]
+  %801 = phi i64 [ %1289, %1288 ], [ 0, %795 ]
+  %802 = phi i64 [ %1291, %1288 ], [ 0, %795 ]
+  %803 = getelementptr inbounds %struct.LinkPair, ptr %178, i64 %802
+  %804 = load i64, ptr %803, align 8
+  %805 = getelementptr inbounds %struct.Sphere.8, ptr %180, i64 %804
+  %806 = getelementptr inbounds i8, ptr %803, i64 8
+  %807 = load i64, ptr %806, align 8
+  %808 = getelementptr inbounds %struct.Sphere.8, ptr %180, i64 %807
+  %809 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %804
+  %810 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %807
+  %811 = getelementptr inbounds <8 x double>, ptr %11, i64 %802
+  %812 = load <8 x double>, ptr %811, align 64
+  %813 = getelementptr inbounds double, ptr %182, i64 %802
+  %814 = load double, ptr %813, align 8
+  %815 = insertelement <8 x double> poison, double %814, i64 0
+  %816 = shufflevector <8 x double> %815, <8 x double> poison, <8 x i32> zeroinitializer
+  %817 = fadd contract <8 x double> %812, %816
+  %818 = load double, ptr %808, align 8
+  %819 = getelementptr inbounds i8, ptr %808, i64 8
+  %820 = load double, ptr %819, align 8
+  %821 = getelementptr inbounds i8, ptr %808, i64 16
+  %822 = load double, ptr %821, align 8
+  %823 = getelementptr inbounds i8, ptr %810, i64 576
+  %824 = load <8 x double>, ptr %823, align 64
+  %825 = load <8 x double>, ptr %810, align 64
+  %826 = insertelement <8 x double> poison, double %818, i64 0
+  %827 = shufflevector <8 x double> %826, <8 x double> poison, <8 x i32> zeroinitializer
+  %828 = fmul contract <8 x double> %827, %825
+  %829 = fadd contract <8 x double> %824, %828
+  %830 = getelementptr inbounds i8, ptr %810, i64 64
+  %831 = load <8 x double>, ptr %830, align 64
+  %832 = insertelement <8 x double> poison, double %820, i64 0
+  %833 = shufflevector <8 x double> %832, <8 x double> poison, <8 x i32> zeroinitializer
+  %834 = fmul contract <8 x double> %833, %831
+  %835 = fadd contract <8 x double> %829, %834
+  %836 = getelementptr inbounds i8, ptr %810, i64 128
+  %837 = load <8 x double>, ptr %836, align 64
+  %838 = insertelement <8 x double> poison, double %822, i64 0
+  %839 = shufflevector <8 x double> %838, <8 x double> poison, <8 x i32> zeroinitializer
+  %840 = fmul contract <8 x double> %839, %837
+  %841 = fadd contract <8 x double> %835, %840
+  %842 = getelementptr inbounds i8, ptr %810, i64 640
+  %843 = load <8 x double>, ptr %842, align 64
+  %844 = getelementptr inbounds i8, ptr %810, i64 192
+  %845 = load <8 x double>, ptr %844, align 64
+  %846 = fmul contract <8 x double> %827, %845
+  %847 = fadd contract <8 x double> %843, %846
+  %848 = getelementptr inbounds i8, ptr %810, i64 256
+  %849 = load <8 x double>, ptr %848, align 64
+  %850 = fmul contract <8 x double> %833, %849
+  %851 = fadd contract <8 x double> %847, %850
+  %852 = getelementptr inbounds i8, ptr %810, i64 320
+  %853 = load <8 x double>, ptr %852, align 64
+  %854 = fmul contract <8 x double> %839, %853
+  %855 = fadd contract <8 x double> %851, %854
+  %856 = getelementptr inbounds i8, ptr %810, i64 704
+  %857 = load <8 x double>, ptr %856, align 64
+  %858 = getelementptr inbounds i8, ptr %810, i64 384
+  %859 = load <8 x double>, ptr %858, align 64
+  %860 = fmul contract <8 x double> %827, %859
+  %861 = fadd contract <8 x double> %857, %860
+  %862 = getelementptr inbounds i8, ptr %810, i64 448
+  %863 = load <8 x double>, ptr %862, align 64
+  %864 = fmul contract <8 x double> %833, %863
+  %865 = fadd contract <8 x double> %861, %864
+  %866 = getelementptr inbounds i8, ptr %810, i64 512
+  %867 = load <8 x double>, ptr %866, align 64
+  %868 = fmul contract <8 x double> %839, %867
+  %869 = fadd contract <8 x double> %865, %868
+  %870 = getelementptr inbounds i8, ptr %805, i64 24
+  %871 = load double, ptr %870, align 8
+  %872 = getelementptr inbounds i8, ptr %808, i64 24
+  %873 = load double, ptr %872, align 8
+  %874 = fadd contract double %871, %873
+  %875 = insertelement <8 x double> poison, double %874, i64 0
+  %876 = shufflevector <8 x double> %875, <8 x double> poison, <8 x i32> zeroinitializer
+  %877 = fadd contract <8 x double> %817, %876
+  %878 = fcmp contract ogt <8 x double> %877, zeroinitializer
+  %879 = select contract <8 x i1> %878, <8 x double> %877, <8 x double> zeroinitializer
+  %880 = load double, ptr %805, align 8
+  %881 = getelementptr inbounds i8, ptr %805, i64 8
   %882 = load double, ptr %881, align 8
-  %883 = fadd contract double %880, %882
-  %884 = insertelement <8 x double> poison, double %883, i64 0
-  %885 = shufflevector <8 x double> %884, <8 x double> poison, <8 x i32> zeroinitializer
-  %886 = fadd contract <8 x double> %826, %885
-  %887 = fcmp contract ogt <8 x double> %886, zeroinitializer
-  %888 = select contract <8 x i1> %887, <8 x double> %886, <8 x double> zeroinitializer
-  %889 = load double, ptr %814, align 8
-  %890 = getelementptr inbounds i8, ptr %814, i64 8
-  %891 = load double, ptr %890, align 8
-  %892 = getelementptr inbounds i8, ptr %814, i64 16
-  %893 = load double, ptr %892, align 8
-  %894 = getelementptr inbounds i8, ptr %818, i64 576
-  %895 = load <8 x double>, ptr %894, align 64
-  %896 = load <8 x double>, ptr %818, align 64
-  %897 = insertelement <8 x double> poison, double %889, i64 0
-  %898 = shufflevector <8 x double> %897, <8 x double> poison, <8 x i32> zeroinitializer
-  %899 = fmul contract <8 x double> %898, %896
-  %900 = fadd contract <8 x double> %895, %899
-  %901 = getelementptr inbounds i8, ptr %818, i64 64
-  %902 = load <8 x double>, ptr %901, align 64
-  %903 = insertelement <8 x double> poison, double %891, i64 0
-  %904 = shufflevector <8 x double> %903, <8 x double> poison, <8 x i32> zeroinitializer
-  %905 = fmul contract <8 x double> %904, %902
-  %906 = fadd contract <8 x double> %900, %905
-  %907 = getelementptr inbounds i8, ptr %818, i64 128
-  %908 = load <8 x double>, ptr %907, align 64
-  %909 = insertelement <8 x double> poison, double %893, i64 0
-  %910 = shufflevector <8 x double> %909, <8 x double> poison, <8 x i32> zeroinitializer
-  %911 = fmul contract <8 x double> %910, %908
-  %912 = fadd contract <8 x double> %906, %911
-  %913 = getelementptr inbounds i8, ptr %818, i64 640
-  %914 = load <8 x double>, ptr %913, align 64
-  %915 = getelementptr inbounds i8, ptr %818, i64 192
-  %916 = load <8 x double>, ptr %915, align 64
-  %917 = fmul contract <8 x double> %898, %916
-  %918 = fadd contract <8 x double> %914, %917
-  %919 = getelementptr inbounds i8, ptr %818, i64 256
-  %920 = load <8 x double>, ptr %919, align 64
-  %921 = fmul contract <8 x double> %904, %920
-  %922 = fadd contract <8 x double> %918, %921
-  %923 = getelementptr inbounds i8, ptr %818, i64 320
-  %924 = load <8 x double>, ptr %923, align 64
-  %925 = fmul contract <8 x double> %910, %924
-  %926 = fadd contract <8 x double> %922, %925
-  %927 = getelementptr inbounds i8, ptr %818, i64 704
-  %928 = load <8 x double>, ptr %927, align 64
-  %929 = getelementptr inbounds i8, ptr %818, i64 384
-  %930 = load <8 x double>, ptr %929, align 64
-  %931 = fmul contract <8 x double> %898, %930
-  %932 = fadd contract <8 x double> %928, %931
-  %933 = getelementptr inbounds i8, ptr %818, i64 448
-  %934 = load <8 x double>, ptr %933, align 64
-  %935 = fmul contract <8 x double> %904, %934
-  %936 = fadd contract <8 x double> %932, %935
-  %937 = getelementptr inbounds i8, ptr %818, i64 512
-  %938 = load <8 x double>, ptr %937, align 64
-  %939 = fmul contract <8 x double> %910, %938
-  %940 = fadd contract <8 x double> %936, %939
-  %941 = fsub contract <8 x double> %912, %850
-  %942 = fsub contract <8 x double> %926, %864
-  %943 = fsub contract <8 x double> %940, %878
-  %944 = fmul contract <8 x double> %941, %941
-  %945 = fmul contract <8 x double> %942, %942
-  %946 = fadd contract <8 x double> %944, %945
-  %947 = fmul contract <8 x double> %943, %943
-  %948 = fadd contract <8 x double> %946, %947
-  %949 = fmul contract <8 x double> %888, %888
-  %950 = fcmp contract olt <8 x double> %948, %949
-  %951 = bitcast <8 x i1> %950 to i8
-  %952 = icmp eq i8 %951, 0
-  br i1 %952, label %1302, label %953
+  %883 = getelementptr inbounds i8, ptr %805, i64 16
+  %884 = load double, ptr %883, align 8
+  %885 = getelementptr inbounds i8, ptr %809, i64 576
+  %886 = load <8 x double>, ptr %885, align 64
+  %887 = load <8 x double>, ptr %809, align 64
+  %888 = insertelement <8 x double> poison, double %880, i64 0
+  %889 = shufflevector <8 x double> %888, <8 x double> poison, <8 x i32> zeroinitializer
+  %890 = fmul contract <8 x double> %889, %887
+  %891 = fadd contract <8 x double> %886, %890
+  %892 = getelementptr inbounds i8, ptr %809, i64 64
+  %893 = load <8 x double>, ptr %892, align 64
+  %894 = insertelement <8 x double> poison, double %882, i64 0
+  %895 = shufflevector <8 x double> %894, <8 x double> poison, <8 x i32> zeroinitializer
+  %896 = fmul contract <8 x double> %895, %893
+  %897 = fadd contract <8 x double> %891, %896
+  %898 = getelementptr inbounds i8, ptr %809, i64 128
+  %899 = load <8 x double>, ptr %898, align 64
+  %900 = insertelement <8 x double> poison, double %884, i64 0
+  %901 = shufflevector <8 x double> %900, <8 x double> poison, <8 x i32> zeroinitializer
+  %902 = fmul contract <8 x double> %901, %899
+  %903 = fadd contract <8 x double> %897, %902
+  %904 = getelementptr inbounds i8, ptr %809, i64 640
+  %905 = load <8 x double>, ptr %904, align 64
+  %906 = getelementptr inbounds i8, ptr %809, i64 192
+  %907 = load <8 x double>, ptr %906, align 64
+  %908 = fmul contract <8 x double> %889, %907
+  %909 = fadd contract <8 x double> %905, %908
+  %910 = getelementptr inbounds i8, ptr %809, i64 256
+  %911 = load <8 x double>, ptr %910, align 64
+  %912 = fmul contract <8 x double> %895, %911
+  %913 = fadd contract <8 x double> %909, %912
+  %914 = getelementptr inbounds i8, ptr %809, i64 320
+  %915 = load <8 x double>, ptr %914, align 64
+  %916 = fmul contract <8 x double> %901, %915
+  %917 = fadd contract <8 x double> %913, %916
+  %918 = getelementptr inbounds i8, ptr %809, i64 704
+  %919 = load <8 x double>, ptr %918, align 64
+  %920 = getelementptr inbounds i8, ptr %809, i64 384
+  %921 = load <8 x double>, ptr %920, align 64
+  %922 = fmul contract <8 x double> %889, %921
+  %923 = fadd contract <8 x double> %919, %922
+  %924 = getelementptr inbounds i8, ptr %809, i64 448
+  %925 = load <8 x double>, ptr %924, align 64
+  %926 = fmul contract <8 x double> %895, %925
+  %927 = fadd contract <8 x double> %923, %926
+  %928 = getelementptr inbounds i8, ptr %809, i64 512
+  %929 = load <8 x double>, ptr %928, align 64
+  %930 = fmul contract <8 x double> %901, %929
+  %931 = fadd contract <8 x double> %927, %930
+  %932 = fsub contract <8 x double> %903, %841
+  %933 = fsub contract <8 x double> %917, %855
+  %934 = fsub contract <8 x double> %931, %869
+  %935 = fmul contract <8 x double> %932, %932
+  %936 = fmul contract <8 x double> %933, %933
+  %937 = fadd contract <8 x double> %935, %936
+  %938 = fmul contract <8 x double> %934, %934
+  %939 = fadd contract <8 x double> %937, %938
+  %940 = fmul contract <8 x double> %879, %879
+  %941 = fcmp contract olt <8 x double> %939, %940
+  %942 = bitcast <8 x i1> %941 to i8
+  %943 = icmp eq i8 %942, 0
+  br i1 %943, label %1288, label %944
 
-953:
-  call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %9)
-  store i64 %813, ptr %9, align 16
-  store i64 %816, ptr %38, align 8
-  br label %960
+944:
+  call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %7)
+  store i64 %804, ptr %7, align 16
+  store i64 %807, ptr %183, align 8
+  br label %951
 
-954:
-  %955 = getelementptr inbounds i8, ptr %812, i64 16
-  %956 = load i64, ptr %955, align 8
-  %957 = getelementptr inbounds i8, ptr %812, i64 24
-  %958 = load i64, ptr %957, align 8
-  %959 = icmp slt i64 %956, %958
-  br i1 %959, label %1043, label %1041
+945:
+  %946 = getelementptr inbounds i8, ptr %803, i64 16
+  %947 = load i64, ptr %946, align 8
+  %948 = getelementptr inbounds i8, ptr %803, i64 24
+  %949 = load i64, ptr %948, align 8
+  %950 = icmp slt i64 %947, %949
+  br i1 %950, label %1034, label %1032
 
-960:
-  %961 = phi i64 [ %810, %953 ], [ %1038, %1037 ]
-  %962 = phi i64 [ 0, %953 ], [ %1039, %1037 ]
-  %963 = getelementptr inbounds i8, ptr %9, i64 %962
+951:
+  %952 = phi i64 [ %801, %944 ], [ %1029, %1028 ]
+  %953 = phi i64 [ 0, %944 ], [ %1030, %1028 ]
+  %954 = getelementptr inbounds i8, ptr %7, i64 %953
+  %955 = load i64, ptr %954, align 8
+  %956 = shl nuw i64 1, %955
+  %957 = and i64 %956, %952
+  %958 = icmp eq i64 %957, 0
+  br i1 %958, label %959, label %1028
+
+959:
+  %960 = or i64 %956, %952
+  %961 = getelementptr inbounds i64, ptr %185, i64 %955
+  %962 = load i64, ptr %961, align 8
+  %963 = getelementptr i8, ptr %961, i64 8
   %964 = load i64, ptr %963, align 8
-  %965 = shl nuw i64 1, %964
-  %966 = and i64 %965, %961
-  %967 = icmp eq i64 %966, 0
-  br i1 %967, label %968, label %1037
+  %965 = icmp slt i64 %962, %964
+  br i1 %965, label %966, label %1028
 
-968:
-  %969 = or i64 %965, %961
-  %970 = getelementptr inbounds i64, ptr %197, i64 %964
-  %971 = load i64, ptr %970, align 8
-  %972 = getelementptr i8, ptr %970, i64 8
-  %973 = load i64, ptr %972, align 8
-  %974 = icmp slt i64 %971, %973
-  br i1 %974, label %975, label %1037
-
-975:
-  %976 = getelementptr inbounds %struct.Frame.3, ptr %14, i64 %964
-  %977 = getelementptr inbounds i8, ptr %976, i64 576
+966:
+  %967 = getelementptr inbounds %struct.Frame.3, ptr %12, i64 %955
+  %968 = getelementptr inbounds i8, ptr %967, i64 576
+  %969 = load <8 x double>, ptr %968, align 64
+  %970 = load <8 x double>, ptr %967, align 64
+  %971 = getelementptr inbounds i8, ptr %967, i64 64
+  %972 = load <8 x double>, ptr %971, align 64
+  %973 = getelementptr inbounds i8, ptr %967, i64 128
+  %974 = load <8 x double>, ptr %973, align 64
+  %975 = getelementptr inbounds i8, ptr %967, i64 640
+  %976 = load <8 x double>, ptr %975, align 64
+  %977 = getelementptr inbounds i8, ptr %967, i64 192
   %978 = load <8 x double>, ptr %977, align 64
-  %979 = load <8 x double>, ptr %976, align 64
-  %980 = getelementptr inbounds i8, ptr %976, i64 64
-  %981 = load <8 x double>, ptr %980, align 64
-  %982 = getelementptr inbounds i8, ptr %976, i64 128
-  %983 = load <8 x double>, ptr %982, align 64
-  %984 = getelementptr inbounds i8, ptr %976, i64 640
-  %985 = load <8 x double>, ptr %984, align 64
-  %986 = getelementptr inbounds i8, ptr %976, i64 192
-  %987 = load <8 x double>, ptr %986, align 64
-  %988 = getelementptr inbounds i8, ptr %976, i64 256
-  %989 = load <8 x double>, ptr %988, align 64
-  %990 = getelementptr inbounds i8, ptr %976, i64 320
-  %991 = load <8 x double>, ptr %990, align 64
-  %992 = getelementptr inbounds i8, ptr %976, i64 704
-  %993 = load <8 x double>, ptr %992, align 64
-  %994 = getelementptr inbounds i8, ptr %976, i64 384
-  %995 = load <8 x double>, ptr %994, align 64
-  %996 = getelementptr inbounds i8, ptr %976, i64 448
-  %997 = load <8 x double>, ptr %996, align 64
-  %998 = getelementptr inbounds i8, ptr %976, i64 512
-  %999 = load <8 x double>, ptr %998, align 64
-  br label %1000
+  %979 = getelementptr inbounds i8, ptr %967, i64 256
+  %980 = load <8 x double>, ptr %979, align 64
+  %981 = getelementptr inbounds i8, ptr %967, i64 320
+  %982 = load <8 x double>, ptr %981, align 64
+  %983 = getelementptr inbounds i8, ptr %967, i64 704
+  %984 = load <8 x double>, ptr %983, align 64
+  %985 = getelementptr inbounds i8, ptr %967, i64 384
+  %986 = load <8 x double>, ptr %985, align 64
+  %987 = getelementptr inbounds i8, ptr %967, i64 448
+  %988 = load <8 x double>, ptr %987, align 64
+  %989 = getelementptr inbounds i8, ptr %967, i64 512
+  %990 = load <8 x double>, ptr %989, align 64
+  br label %991
 
-1000:
-  %1001 = phi i64 [ %971, %975 ], [ %1035, %1000 ]
-  %1002 = getelementptr inbounds %struct.Part.10, ptr %198, i64 %1001
-  %1003 = load double, ptr %1002, align 8
-  %1004 = getelementptr inbounds i8, ptr %1002, i64 8
-  %1005 = load double, ptr %1004, align 8
-  %1006 = getelementptr inbounds i8, ptr %1002, i64 16
-  %1007 = load double, ptr %1006, align 8
-  %1008 = insertelement <8 x double> poison, double %1003, i64 0
-  %1009 = shufflevector <8 x double> %1008, <8 x double> poison, <8 x i32> zeroinitializer
-  %1010 = fmul contract <8 x double> %979, %1009
-  %1011 = fadd contract <8 x double> %978, %1010
-  %1012 = insertelement <8 x double> poison, double %1005, i64 0
-  %1013 = shufflevector <8 x double> %1012, <8 x double> poison, <8 x i32> zeroinitializer
-  %1014 = fmul contract <8 x double> %981, %1013
-  %1015 = fadd contract <8 x double> %1011, %1014
-  %1016 = insertelement <8 x double> poison, double %1007, i64 0
-  %1017 = shufflevector <8 x double> %1016, <8 x double> poison, <8 x i32> zeroinitializer
-  %1018 = fmul contract <8 x double> %983, %1017
-  %1019 = fadd contract <8 x double> %1015, %1018
-  %1020 = fmul contract <8 x double> %987, %1009
-  %1021 = fadd contract <8 x double> %985, %1020
-  %1022 = fmul contract <8 x double> %989, %1013
-  %1023 = fadd contract <8 x double> %1021, %1022
-  %1024 = fmul contract <8 x double> %991, %1017
-  %1025 = fadd contract <8 x double> %1023, %1024
-  %1026 = fmul contract <8 x double> %995, %1009
-  %1027 = fadd contract <8 x double> %993, %1026
-  %1028 = fmul contract <8 x double> %997, %1013
-  %1029 = fadd contract <8 x double> %1027, %1028
-  %1030 = fmul contract <8 x double> %999, %1017
-  %1031 = fadd contract <8 x double> %1029, %1030
-  %1032 = getelementptr inbounds [192 x %struct.Point.7], ptr %8, i64 0, i64 %1001
-  store <8 x double> %1019, ptr %1032, align 64
-  %1033 = getelementptr inbounds i8, ptr %1032, i64 64
-  store <8 x double> %1025, ptr %1033, align 64
-  %1034 = getelementptr inbounds i8, ptr %1032, i64 128
-  store <8 x double> %1031, ptr %1034, align 64
-  %1035 = add nsw i64 %1001, 1
-  %1036 = icmp eq i64 %1035, %973
-  br i1 %1036, label %1037, label %1000
+991:
+  %992 = phi i64 [ %962, %966 ], [ %1026, %991 ]
+  %993 = getelementptr inbounds %struct.Part.10, ptr %187, i64 %992
+  %994 = load double, ptr %993, align 8
+  %995 = getelementptr inbounds i8, ptr %993, i64 8
+  %996 = load double, ptr %995, align 8
+  %997 = getelementptr inbounds i8, ptr %993, i64 16
+  %998 = load double, ptr %997, align 8
+  %999 = insertelement <8 x double> poison, double %994, i64 0
+  %1000 = shufflevector <8 x double> %999, <8 x double> poison, <8 x i32> zeroinitializer
+  %1001 = fmul contract <8 x double> %1000, %970
+  %1002 = fadd contract <8 x double> %969, %1001
+  %1003 = insertelement <8 x double> poison, double %996, i64 0
+  %1004 = shufflevector <8 x double> %1003, <8 x double> poison, <8 x i32> zeroinitializer
+  %1005 = fmul contract <8 x double> %1004, %972
+  %1006 = fadd contract <8 x double> %1002, %1005
+  %1007 = insertelement <8 x double> poison, double %998, i64 0
+  %1008 = shufflevector <8 x double> %1007, <8 x double> poison, <8 x i32> zeroinitializer
+  %1009 = fmul contract <8 x double> %1008, %974
+  %1010 = fadd contract <8 x double> %1006, %1009
+  %1011 = fmul contract <8 x double> %1000, %978
+  %1012 = fadd contract <8 x double> %976, %1011
+  %1013 = fmul contract <8 x double> %1004, %980
+  %1014 = fadd contract <8 x double> %1012, %1013
+  %1015 = fmul contract <8 x double> %1008, %982
+  %1016 = fadd contract <8 x double> %1014, %1015
+  %1017 = fmul contract <8 x double> %1000, %986
+  %1018 = fadd contract <8 x double> %984, %1017
+  %1019 = fmul contract <8 x double> %1004, %988
+  %1020 = fadd contract <8 x double> %1018, %1019
+  %1021 = fmul contract <8 x double> %1008, %990
+  %1022 = fadd contract <8 x double> %1020, %1021
+  %1023 = getelementptr inbounds [192 x %struct.Point.7], ptr %6, i64 0, i64 %992
+  store <8 x double> %1010, ptr %1023, align 64
+  %1024 = getelementptr inbounds i8, ptr %1023, i64 64
+  store <8 x double> %1016, ptr %1024, align 64
+  %1025 = getelementptr inbounds i8, ptr %1023, i64 128
+  store <8 x double> %1022, ptr %1025, align 64
+  %1026 = add nsw i64 %992, 1
+  %1027 = icmp eq i64 %1026, %964
+  br i1 %1027, label %1028, label %991
 
-1037:
-  %1038 = phi i64 [ %961, %960 ], [ %969, %968 ], [ %969, %1000 ]
-  %1039 = add nuw nsw i64 %962, 8
-  %1040 = icmp eq i64 %1039, 16
-  br i1 %1040, label %954, label %960
+1028:
+  %1029 = phi i64 [ %952, %951 ], [ %960, %959 ], [ %960, %991 ]
+  %1030 = add nuw nsw i64 %953, 8
+  %1031 = icmp eq i64 %1030, 16
+  br i1 %1031, label %945, label %951
 
-1041:
-  %1042 = phi <8 x i64> [ %809, %954 ], [ %1299, %1296 ]
-  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %9)
-  br label %1302
+1032:
+  %1033 = phi <8 x i64> [ %800, %945 ], [ %1285, %1282 ]
+  call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %7)
+  br label %1288
 
-1043:
-  %1044 = phi <8 x i64> [ %1299, %1296 ], [ %809, %954 ]
-  %1045 = phi i64 [ %1300, %1296 ], [ %956, %954 ]
-  %1046 = phi i1 [ %1297, %1296 ], [ false, %954 ]
-  %1047 = phi i64 [ %1298, %1296 ], [ -1, %954 ]
-  %1048 = getelementptr inbounds %struct.PartPair, ptr %199, i64 %1045
-  %1049 = load i64, ptr %1048, align 8
-  %1050 = getelementptr inbounds %struct.Part.10, ptr %198, i64 %1049
-  %1051 = getelementptr inbounds i8, ptr %1048, i64 8
-  %1052 = load i64, ptr %1051, align 8
-  %1053 = getelementptr inbounds %struct.Part.10, ptr %198, i64 %1052
-  %1054 = icmp eq i64 %1049, %1047
-  br i1 %1054, label %1082, label %1055
+1034:
+  %1035 = phi <8 x i64> [ %1285, %1282 ], [ %800, %945 ]
+  %1036 = phi i64 [ %1286, %1282 ], [ %947, %945 ]
+  %1037 = phi i1 [ %1283, %1282 ], [ false, %945 ]
+  %1038 = phi i64 [ %1284, %1282 ], [ -1, %945 ]
+  %1039 = getelementptr inbounds %struct.PartPair, ptr %189, i64 %1036
+  %1040 = load i64, ptr %1039, align 8
+  %1041 = getelementptr inbounds %struct.Part.10, ptr %187, i64 %1040
+  %1042 = getelementptr inbounds i8, ptr %1039, i64 8
+  %1043 = load i64, ptr %1042, align 8
+  %1044 = getelementptr inbounds %struct.Part.10, ptr %187, i64 %1043
+  %1045 = icmp eq i64 %1040, %1038
+  br i1 %1045, label %1073, label %1046
 
-1055:
-  %1056 = getelementptr inbounds i8, ptr %1050, i64 56
-  %1057 = load double, ptr %1056, align 8
-  %1058 = fadd contract double %882, %1057
-  %1059 = insertelement <8 x double> poison, double %1058, i64 0
-  %1060 = shufflevector <8 x double> %1059, <8 x double> poison, <8 x i32> zeroinitializer
-  %1061 = fadd contract <8 x double> %826, %1060
-  %1062 = fcmp contract ogt <8 x double> %1061, zeroinitializer
-  %1063 = select contract <8 x i1> %1062, <8 x double> %1061, <8 x double> zeroinitializer
-  %1064 = getelementptr inbounds [192 x %struct.Point.7], ptr %8, i64 0, i64 %1049
-  %1065 = load <8 x double>, ptr %1064, align 64
-  %1066 = fsub contract <8 x double> %1065, %850
-  %1067 = getelementptr inbounds i8, ptr %1064, i64 64
-  %1068 = load <8 x double>, ptr %1067, align 64
-  %1069 = fsub contract <8 x double> %1068, %864
-  %1070 = getelementptr inbounds i8, ptr %1064, i64 128
-  %1071 = load <8 x double>, ptr %1070, align 64
-  %1072 = fsub contract <8 x double> %1071, %878
-  %1073 = fmul contract <8 x double> %1066, %1066
-  %1074 = fmul contract <8 x double> %1069, %1069
-  %1075 = fadd contract <8 x double> %1073, %1074
-  %1076 = fmul contract <8 x double> %1072, %1072
-  %1077 = fadd contract <8 x double> %1075, %1076
-  %1078 = fmul contract <8 x double> %1063, %1063
-  %1079 = fcmp contract olt <8 x double> %1077, %1078
-  %1080 = bitcast <8 x i1> %1079 to i8
-  %1081 = icmp eq i8 %1080, 0
-  br i1 %1081, label %1296, label %1092
+1046:
+  %1047 = getelementptr inbounds i8, ptr %1041, i64 56
+  %1048 = load double, ptr %1047, align 8
+  %1049 = fadd contract double %873, %1048
+  %1050 = insertelement <8 x double> poison, double %1049, i64 0
+  %1051 = shufflevector <8 x double> %1050, <8 x double> poison, <8 x i32> zeroinitializer
+  %1052 = fadd contract <8 x double> %817, %1051
+  %1053 = fcmp contract ogt <8 x double> %1052, zeroinitializer
+  %1054 = select contract <8 x i1> %1053, <8 x double> %1052, <8 x double> zeroinitializer
+  %1055 = getelementptr inbounds [192 x %struct.Point.7], ptr %6, i64 0, i64 %1040
+  %1056 = load <8 x double>, ptr %1055, align 64
+  %1057 = fsub contract <8 x double> %1056, %841
+  %1058 = getelementptr inbounds i8, ptr %1055, i64 64
+  %1059 = load <8 x double>, ptr %1058, align 64
+  %1060 = fsub contract <8 x double> %1059, %855
+  %1061 = getelementptr inbounds i8, ptr %1055, i64 128
+  %1062 = load <8 x double>, ptr %1061, align 64
+  %1063 = fsub contract <8 x double> %1062, %869
+  %1064 = fmul contract <8 x double> %1057, %1057
+  %1065 = fmul contract <8 x double> %1060, %1060
+  %1066 = fadd contract <8 x double> %1064, %1065
+  %1067 = fmul contract <8 x double> %1063, %1063
+  %1068 = fadd contract <8 x double> %1066, %1067
+  %1069 = fmul contract <8 x double> %1054, %1054
+  %1070 = fcmp contract olt <8 x double> %1068, %1069
+  %1071 = bitcast <8 x i1> %1070 to i8
+  %1072 = icmp eq i8 %1071, 0
+  br i1 %1072, label %1282, label %1074
 
-1082:
-  br i1 %1046, label %1083, label %1296
+1073:
+  br i1 %1037, label %1074, label %1282
 
-1083:
-  %1084 = getelementptr inbounds i8, ptr %1050, i64 56
-  %1085 = load double, ptr %1084, align 8
-  %1086 = getelementptr inbounds [192 x %struct.Point.7], ptr %8, i64 0, i64 %1047
-  %1087 = load <8 x double>, ptr %1086, align 64
-  %1088 = getelementptr inbounds i8, ptr %1086, i64 64
-  %1089 = load <8 x double>, ptr %1088, align 64
-  %1090 = getelementptr inbounds i8, ptr %1086, i64 128
-  %1091 = load <8 x double>, ptr %1090, align 64
-  br label %1092
+1074:
+  %1075 = phi i64 [ %1040, %1046 ], [ %1038, %1073 ]
+  %1076 = getelementptr inbounds i8, ptr %1041, i64 56
+  %1077 = load double, ptr %1076, align 8
+  %1078 = getelementptr inbounds i8, ptr %1044, i64 56
+  %1079 = load double, ptr %1078, align 8
+  %1080 = fadd contract double %1077, %1079
+  %1081 = insertelement <8 x double> poison, double %1080, i64 0
+  %1082 = shufflevector <8 x double> %1081, <8 x double> poison, <8 x i32> zeroinitializer
+  %1083 = fadd contract <8 x double> %817, %1082
+  %1084 = fcmp contract ogt <8 x double> %1083, zeroinitializer
+  %1085 = select contract <8 x i1> %1084, <8 x double> %1083, <8 x double> zeroinitializer
+  %1086 = getelementptr inbounds [192 x %struct.Point.7], ptr %6, i64 0, i64 %1040
+  %1087 = getelementptr inbounds [192 x %struct.Point.7], ptr %6, i64 0, i64 %1043
+  %1088 = load <8 x double>, ptr %1086, align 64
+  %1089 = load <8 x double>, ptr %1087, align 64
+  %1090 = fsub contract <8 x double> %1088, %1089
+  %1091 = getelementptr inbounds i8, ptr %1086, i64 64
+  %1092 = load <8 x double>, ptr %1091, align 64
+  %1093 = getelementptr inbounds i8, ptr %1087, i64 64
+  %1094 = load <8 x double>, ptr %1093, align 64
+  %1095 = fsub contract <8 x double> %1092, %1094
+  %1096 = getelementptr inbounds i8, ptr %1086, i64 128
+  %1097 = load <8 x double>, ptr %1096, align 64
+  %1098 = getelementptr inbounds i8, ptr %1087, i64 128
+  %1099 = load <8 x double>, ptr %1098, align 64
+  %1100 = fsub contract <8 x double> %1097, %1099
+  %1101 = fmul contract <8 x double> %1090, %1090
+  %1102 = fmul contract <8 x double> %1095, %1095
+  %1103 = fadd contract <8 x double> %1101, %1102
+  %1104 = fmul contract <8 x double> %1100, %1100
+  %1105 = fadd contract <8 x double> %1103, %1104
+  %1106 = fmul contract <8 x double> %1085, %1085
+  %1107 = fcmp contract olt <8 x double> %1105, %1106
+  %1108 = bitcast <8 x i1> %1107 to i8
+  %1109 = icmp eq i8 %1108, 0
+  br i1 %1109, label %1282, label %1110
 
-1092:
-  %1093 = phi <8 x double> [ %1071, %1055 ], [ %1091, %1083 ]
-  %1094 = phi <8 x double> [ %1068, %1055 ], [ %1089, %1083 ]
-  %1095 = phi <8 x double> [ %1065, %1055 ], [ %1087, %1083 ]
-  %1096 = phi double [ %1057, %1055 ], [ %1085, %1083 ]
-  %1097 = phi i64 [ %1049, %1055 ], [ %1047, %1083 ]
-  %1098 = getelementptr inbounds i8, ptr %1053, i64 56
-  %1099 = load double, ptr %1098, align 8
-  %1100 = fadd contract double %1096, %1099
-  %1101 = insertelement <8 x double> poison, double %1100, i64 0
-  %1102 = shufflevector <8 x double> %1101, <8 x double> poison, <8 x i32> zeroinitializer
-  %1103 = fadd contract <8 x double> %826, %1102
-  %1104 = fcmp contract ogt <8 x double> %1103, zeroinitializer
-  %1105 = select contract <8 x i1> %1104, <8 x double> %1103, <8 x double> zeroinitializer
-  %1106 = getelementptr inbounds [192 x %struct.Point.7], ptr %8, i64 0, i64 %1052
-  %1107 = load <8 x double>, ptr %1106, align 64
-  %1108 = fsub contract <8 x double> %1095, %1107
-  %1109 = getelementptr inbounds i8, ptr %1106, i64 64
-  %1110 = load <8 x double>, ptr %1109, align 64
-  %1111 = fsub contract <8 x double> %1094, %1110
-  %1112 = getelementptr inbounds i8, ptr %1106, i64 128
-  %1113 = load <8 x double>, ptr %1112, align 64
-  %1114 = fsub contract <8 x double> %1093, %1113
-  %1115 = fmul contract <8 x double> %1108, %1108
-  %1116 = fmul contract <8 x double> %1111, %1111
-  %1117 = fadd contract <8 x double> %1115, %1116
-  %1118 = fmul contract <8 x double> %1114, %1114
-  %1119 = fadd contract <8 x double> %1117, %1118
-  %1120 = fmul contract <8 x double> %1105, %1105
-  %1121 = fcmp contract olt <8 x double> %1119, %1120
-  %1122 = bitcast <8 x i1> %1121 to i8
-  %1123 = icmp eq i8 %1122, 0
-  br i1 %1123, label %1296, label %1124
-
-1124:
-  %1125 = getelementptr inbounds i8, ptr %1050, i64 48
-  %1126 = load double, ptr %1125, align 8
-  %1127 = getelementptr inbounds i8, ptr %1053, i64 48
-  %1128 = load double, ptr %1127, align 8
-  %1129 = fadd contract double %1126, %1128
-  %1130 = insertelement <8 x double> poison, double %1129, i64 0
-  %1131 = shufflevector <8 x double> %1130, <8 x double> poison, <8 x i32> zeroinitializer
-  %1132 = fadd contract <8 x double> %826, %1131
-  %1133 = fcmp contract ogt <8 x double> %1132, zeroinitializer
-  %1134 = select contract <8 x i1> %1133, <8 x double> %1132, <8 x double> zeroinitializer
-  %1135 = getelementptr inbounds i8, ptr %1050, i64 24
+1110:
+  %1111 = getelementptr inbounds i8, ptr %1041, i64 48
+  %1112 = load double, ptr %1111, align 8
+  %1113 = getelementptr inbounds i8, ptr %1044, i64 48
+  %1114 = load double, ptr %1113, align 8
+  %1115 = fadd contract double %1112, %1114
+  %1116 = insertelement <8 x double> poison, double %1115, i64 0
+  %1117 = shufflevector <8 x double> %1116, <8 x double> poison, <8 x i32> zeroinitializer
+  %1118 = fadd contract <8 x double> %817, %1117
+  %1119 = fcmp contract ogt <8 x double> %1118, zeroinitializer
+  %1120 = select contract <8 x i1> %1119, <8 x double> %1118, <8 x double> zeroinitializer
+  %1121 = getelementptr inbounds i8, ptr %1041, i64 24
+  %1122 = load double, ptr %1121, align 8
+  %1123 = fmul contract double %1122, %1122
+  %1124 = getelementptr inbounds i8, ptr %1041, i64 32
+  %1125 = load double, ptr %1124, align 8
+  %1126 = fmul contract double %1125, %1125
+  %1127 = fadd contract double %1123, %1126
+  %1128 = getelementptr inbounds i8, ptr %1041, i64 40
+  %1129 = load double, ptr %1128, align 8
+  %1130 = fmul contract double %1129, %1129
+  %1131 = fadd contract double %1127, %1130
+  %1132 = getelementptr inbounds i8, ptr %1044, i64 24
+  %1133 = load double, ptr %1132, align 8
+  %1134 = fmul contract double %1133, %1133
+  %1135 = getelementptr inbounds i8, ptr %1044, i64 32
   %1136 = load double, ptr %1135, align 8
   %1137 = fmul contract double %1136, %1136
-  %1138 = getelementptr inbounds i8, ptr %1050, i64 32
-  %1139 = load double, ptr %1138, align 8
-  %1140 = fmul contract double %1139, %1139
-  %1141 = fadd contract double %1137, %1140
-  %1142 = getelementptr inbounds i8, ptr %1050, i64 40
-  %1143 = load double, ptr %1142, align 8
-  %1144 = fmul contract double %1143, %1143
-  %1145 = fadd contract double %1141, %1144
-  %1146 = getelementptr inbounds i8, ptr %1053, i64 24
-  %1147 = load double, ptr %1146, align 8
-  %1148 = fmul contract double %1147, %1147
-  %1149 = getelementptr inbounds i8, ptr %1053, i64 32
-  %1150 = load double, ptr %1149, align 8
-  %1151 = fmul contract double %1150, %1150
-  %1152 = fadd contract double %1148, %1151
-  %1153 = getelementptr inbounds i8, ptr %1053, i64 40
-  %1154 = load double, ptr %1153, align 8
-  %1155 = fmul contract double %1154, %1154
-  %1156 = fadd contract double %1152, %1155
-  %1157 = fcmp contract oeq double %1145, 0.000000e+00
-  %1158 = fcmp contract oeq double %1156, 0.000000e+00
-  %1159 = select i1 %1157, i1 %1158, i1 false
-  br i1 %1159, label %1291, label %1160
+  %1138 = fadd contract double %1134, %1137
+  %1139 = getelementptr inbounds i8, ptr %1044, i64 40
+  %1140 = load double, ptr %1139, align 8
+  %1141 = fmul contract double %1140, %1140
+  %1142 = fadd contract double %1138, %1141
+  %1143 = fcmp contract oeq double %1131, 0.000000e+00
+  %1144 = fcmp contract oeq double %1142, 0.000000e+00
+  %1145 = select i1 %1143, i1 %1144, i1 false
+  br i1 %1145, label %1277, label %1146
 
-1160:
-  %1161 = fmul contract <8 x double> %1095, zeroinitializer
-  %1162 = fadd contract <8 x double> %1161, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %1163 = insertelement <8 x double> poison, double %1136, i64 0
-  %1164 = shufflevector <8 x double> %1163, <8 x double> poison, <8 x i32> zeroinitializer
-  %1165 = fmul contract <8 x double> %896, %1164
-  %1166 = insertelement <8 x double> poison, double %1139, i64 0
-  %1167 = shufflevector <8 x double> %1166, <8 x double> poison, <8 x i32> zeroinitializer
-  %1168 = fmul contract <8 x double> %902, %1167
-  %1169 = fadd contract <8 x double> %1165, %1168
-  %1170 = insertelement <8 x double> poison, double %1143, i64 0
+1146:
+  %1147 = fmul contract <8 x double> %1088, zeroinitializer
+  %1148 = fadd contract <8 x double> %1147, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %1149 = insertelement <8 x double> poison, double %1122, i64 0
+  %1150 = shufflevector <8 x double> %1149, <8 x double> poison, <8 x i32> zeroinitializer
+  %1151 = fmul contract <8 x double> %887, %1150
+  %1152 = insertelement <8 x double> poison, double %1125, i64 0
+  %1153 = shufflevector <8 x double> %1152, <8 x double> poison, <8 x i32> zeroinitializer
+  %1154 = fmul contract <8 x double> %893, %1153
+  %1155 = fadd contract <8 x double> %1151, %1154
+  %1156 = insertelement <8 x double> poison, double %1129, i64 0
+  %1157 = shufflevector <8 x double> %1156, <8 x double> poison, <8 x i32> zeroinitializer
+  %1158 = fmul contract <8 x double> %899, %1157
+  %1159 = fadd contract <8 x double> %1155, %1158
+  %1160 = fmul contract <8 x double> %907, %1150
+  %1161 = fmul contract <8 x double> %911, %1153
+  %1162 = fadd contract <8 x double> %1160, %1161
+  %1163 = fmul contract <8 x double> %915, %1157
+  %1164 = fadd contract <8 x double> %1162, %1163
+  %1165 = fmul contract <8 x double> %921, %1150
+  %1166 = fmul contract <8 x double> %925, %1153
+  %1167 = fadd contract <8 x double> %1165, %1166
+  %1168 = fmul contract <8 x double> %929, %1157
+  %1169 = fadd contract <8 x double> %1167, %1168
+  %1170 = insertelement <8 x double> poison, double %1133, i64 0
   %1171 = shufflevector <8 x double> %1170, <8 x double> poison, <8 x i32> zeroinitializer
-  %1172 = fmul contract <8 x double> %908, %1171
-  %1173 = fadd contract <8 x double> %1169, %1172
-  %1174 = fmul contract <8 x double> %916, %1164
-  %1175 = fmul contract <8 x double> %920, %1167
-  %1176 = fadd contract <8 x double> %1174, %1175
-  %1177 = fmul contract <8 x double> %924, %1171
-  %1178 = fadd contract <8 x double> %1176, %1177
-  %1179 = fmul contract <8 x double> %930, %1164
-  %1180 = fmul contract <8 x double> %934, %1167
-  %1181 = fadd contract <8 x double> %1179, %1180
-  %1182 = fmul contract <8 x double> %938, %1171
+  %1172 = fmul contract <8 x double> %825, %1171
+  %1173 = insertelement <8 x double> poison, double %1136, i64 0
+  %1174 = shufflevector <8 x double> %1173, <8 x double> poison, <8 x i32> zeroinitializer
+  %1175 = fmul contract <8 x double> %831, %1174
+  %1176 = fadd contract <8 x double> %1172, %1175
+  %1177 = insertelement <8 x double> poison, double %1140, i64 0
+  %1178 = shufflevector <8 x double> %1177, <8 x double> poison, <8 x i32> zeroinitializer
+  %1179 = fmul contract <8 x double> %837, %1178
+  %1180 = fadd contract <8 x double> %1176, %1179
+  %1181 = fmul contract <8 x double> %845, %1171
+  %1182 = fmul contract <8 x double> %849, %1174
   %1183 = fadd contract <8 x double> %1181, %1182
-  %1184 = insertelement <8 x double> poison, double %1147, i64 0
-  %1185 = shufflevector <8 x double> %1184, <8 x double> poison, <8 x i32> zeroinitializer
-  %1186 = fmul contract <8 x double> %834, %1185
-  %1187 = insertelement <8 x double> poison, double %1150, i64 0
-  %1188 = shufflevector <8 x double> %1187, <8 x double> poison, <8 x i32> zeroinitializer
-  %1189 = fmul contract <8 x double> %840, %1188
-  %1190 = fadd contract <8 x double> %1186, %1189
-  %1191 = insertelement <8 x double> poison, double %1154, i64 0
-  %1192 = shufflevector <8 x double> %1191, <8 x double> poison, <8 x i32> zeroinitializer
-  %1193 = fmul contract <8 x double> %846, %1192
-  %1194 = fadd contract <8 x double> %1190, %1193
-  %1195 = fmul contract <8 x double> %854, %1185
-  %1196 = fmul contract <8 x double> %858, %1188
-  %1197 = fadd contract <8 x double> %1195, %1196
-  %1198 = fmul contract <8 x double> %862, %1192
+  %1184 = fmul contract <8 x double> %853, %1178
+  %1185 = fadd contract <8 x double> %1183, %1184
+  %1186 = fmul contract <8 x double> %859, %1171
+  %1187 = fmul contract <8 x double> %863, %1174
+  %1188 = fadd contract <8 x double> %1186, %1187
+  %1189 = fmul contract <8 x double> %867, %1178
+  %1190 = fadd contract <8 x double> %1188, %1189
+  %1191 = fcmp contract ogt double %1131, 0.000000e+00
+  %1192 = fdiv contract double 1.000000e+00, %1131
+  %1193 = select contract i1 %1191, double %1192, double 0.000000e+00
+  %1194 = fcmp contract ogt double %1142, 0.000000e+00
+  %1195 = fdiv contract double 1.000000e+00, %1142
+  %1196 = select contract i1 %1194, double %1195, double 0.000000e+00
+  %1197 = fmul contract <8 x double> %1159, %1180
+  %1198 = fmul contract <8 x double> %1164, %1185
   %1199 = fadd contract <8 x double> %1197, %1198
-  %1200 = fmul contract <8 x double> %868, %1185
-  %1201 = fmul contract <8 x double> %872, %1188
-  %1202 = fadd contract <8 x double> %1200, %1201
-  %1203 = fmul contract <8 x double> %876, %1192
+  %1200 = fmul contract <8 x double> %1169, %1190
+  %1201 = fadd contract <8 x double> %1200, %1199
+  %1202 = fmul contract <8 x double> %1090, %1159
+  %1203 = fmul contract <8 x double> %1095, %1164
   %1204 = fadd contract <8 x double> %1202, %1203
-  %1205 = fcmp contract ogt double %1145, 0.000000e+00
-  %1206 = fdiv contract double 1.000000e+00, %1145
-  %1207 = select contract i1 %1205, double %1206, double 0.000000e+00
-  %1208 = fcmp contract ogt double %1156, 0.000000e+00
-  %1209 = fdiv contract double 1.000000e+00, %1156
-  %1210 = select contract i1 %1208, double %1209, double 0.000000e+00
-  %1211 = fmul contract <8 x double> %1173, %1194
-  %1212 = fmul contract <8 x double> %1178, %1199
-  %1213 = fadd contract <8 x double> %1211, %1212
-  %1214 = fmul contract <8 x double> %1183, %1204
-  %1215 = fadd contract <8 x double> %1214, %1213
-  %1216 = fmul contract <8 x double> %1108, %1173
-  %1217 = fmul contract <8 x double> %1111, %1178
-  %1218 = fadd contract <8 x double> %1216, %1217
-  %1219 = fmul contract <8 x double> %1114, %1183
-  %1220 = fadd contract <8 x double> %1219, %1218
-  %1221 = fmul contract <8 x double> %1108, %1194
-  %1222 = fmul contract <8 x double> %1111, %1199
-  %1223 = fadd contract <8 x double> %1221, %1222
-  %1224 = fmul contract <8 x double> %1114, %1204
-  %1225 = fadd contract <8 x double> %1224, %1223
-  %1226 = fmul contract double %1145, %1156
-  %1227 = insertelement <8 x double> poison, double %1226, i64 0
-  %1228 = shufflevector <8 x double> %1227, <8 x double> poison, <8 x i32> zeroinitializer
-  %1229 = fmul contract <8 x double> %1215, %1215
-  %1230 = fsub contract <8 x double> %1228, %1229
-  %1231 = fmul contract double %1145, 0x3E7AD7F29ABCAF48
-  %1232 = fmul contract double %1231, %1156
-  %1233 = insertelement <8 x double> poison, double %1232, i64 0
-  %1234 = shufflevector <8 x double> %1233, <8 x double> poison, <8 x i32> zeroinitializer
-  %1235 = fcmp contract ogt <8 x double> %1230, %1234
-  %1236 = fmul contract <8 x double> %1215, %1225
-  %1237 = insertelement <8 x double> poison, double %1156, i64 0
+  %1205 = fmul contract <8 x double> %1100, %1169
+  %1206 = fadd contract <8 x double> %1205, %1204
+  %1207 = fmul contract <8 x double> %1090, %1180
+  %1208 = fmul contract <8 x double> %1095, %1185
+  %1209 = fadd contract <8 x double> %1207, %1208
+  %1210 = fmul contract <8 x double> %1100, %1190
+  %1211 = fadd contract <8 x double> %1210, %1209
+  %1212 = fmul contract double %1131, %1142
+  %1213 = insertelement <8 x double> poison, double %1212, i64 0
+  %1214 = shufflevector <8 x double> %1213, <8 x double> poison, <8 x i32> zeroinitializer
+  %1215 = fmul contract <8 x double> %1201, %1201
+  %1216 = fsub contract <8 x double> %1214, %1215
+  %1217 = fmul contract double %1131, 0x3E7AD7F29ABCAF48
+  %1218 = fmul contract double %1217, %1142
+  %1219 = insertelement <8 x double> poison, double %1218, i64 0
+  %1220 = shufflevector <8 x double> %1219, <8 x double> poison, <8 x i32> zeroinitializer
+  %1221 = fcmp contract ogt <8 x double> %1216, %1220
+  %1222 = fmul contract <8 x double> %1201, %1211
+  %1223 = insertelement <8 x double> poison, double %1142, i64 0
+  %1224 = shufflevector <8 x double> %1223, <8 x double> poison, <8 x i32> zeroinitializer
+  %1225 = fmul contract <8 x double> %1224, %1206
+  %1226 = fsub contract <8 x double> %1222, %1225
+  %1227 = select contract <8 x i1> %1221, <8 x double> %1216, <8 x double> %1148
+  %1228 = fdiv contract <8 x double> %1226, %1227
+  %1229 = fneg contract <8 x double> %1148
+  %1230 = fcmp contract ogt <8 x double> %1228, %1229
+  %1231 = select contract <8 x i1> %1230, <8 x double> %1228, <8 x double> %1229
+  %1232 = fcmp contract olt <8 x double> %1231, %1148
+  %1233 = select contract <8 x i1> %1232, <8 x double> %1231, <8 x double> %1148
+  %1234 = select contract <8 x i1> %1221, <8 x double> %1233, <8 x double> %1229
+  %1235 = fmul contract <8 x double> %1201, %1234
+  %1236 = fadd contract <8 x double> %1211, %1235
+  %1237 = insertelement <8 x double> poison, double %1196, i64 0
   %1238 = shufflevector <8 x double> %1237, <8 x double> poison, <8 x i32> zeroinitializer
-  %1239 = fmul contract <8 x double> %1238, %1220
-  %1240 = fsub contract <8 x double> %1236, %1239
-  %1241 = select contract <8 x i1> %1235, <8 x double> %1230, <8 x double> %1162
-  %1242 = fdiv contract <8 x double> %1240, %1241
-  %1243 = fneg contract <8 x double> %1162
-  %1244 = fcmp contract ogt <8 x double> %1242, %1243
-  %1245 = select contract <8 x i1> %1244, <8 x double> %1242, <8 x double> %1243
-  %1246 = fcmp contract olt <8 x double> %1245, %1162
-  %1247 = select contract <8 x i1> %1246, <8 x double> %1245, <8 x double> %1162
-  %1248 = select contract <8 x i1> %1235, <8 x double> %1247, <8 x double> %1243
-  %1249 = fmul contract <8 x double> %1215, %1248
-  %1250 = fadd contract <8 x double> %1225, %1249
-  %1251 = insertelement <8 x double> poison, double %1210, i64 0
-  %1252 = shufflevector <8 x double> %1251, <8 x double> poison, <8 x i32> zeroinitializer
-  %1253 = fmul contract <8 x double> %1252, %1250
-  %1254 = fcmp contract ogt <8 x double> %1253, %1243
-  %1255 = select contract <8 x i1> %1254, <8 x double> %1253, <8 x double> %1243
-  %1256 = fcmp contract olt <8 x double> %1255, %1162
-  %1257 = select contract <8 x i1> %1256, <8 x double> %1255, <8 x double> %1162
-  %1258 = fmul contract <8 x double> %1215, %1257
-  %1259 = fsub contract <8 x double> %1258, %1220
-  %1260 = insertelement <8 x double> poison, double %1207, i64 0
-  %1261 = shufflevector <8 x double> %1260, <8 x double> poison, <8 x i32> zeroinitializer
-  %1262 = fmul contract <8 x double> %1261, %1259
-  %1263 = fcmp contract ogt <8 x double> %1262, %1243
-  %1264 = select contract <8 x i1> %1263, <8 x double> %1262, <8 x double> %1243
-  %1265 = fcmp contract olt <8 x double> %1264, %1162
-  %1266 = select contract <8 x i1> %1265, <8 x double> %1264, <8 x double> %1162
-  %1267 = fmul contract <8 x double> %1215, %1266
-  %1268 = fadd contract <8 x double> %1225, %1267
-  %1269 = fmul contract <8 x double> %1252, %1268
-  %1270 = fcmp contract ogt <8 x double> %1269, %1243
-  %1271 = select contract <8 x i1> %1270, <8 x double> %1269, <8 x double> %1243
-  %1272 = fcmp contract olt <8 x double> %1271, %1162
-  %1273 = select contract <8 x i1> %1272, <8 x double> %1271, <8 x double> %1162
-  %1274 = fmul contract <8 x double> %1173, %1266
-  %1275 = fadd contract <8 x double> %1108, %1274
-  %1276 = fmul contract <8 x double> %1194, %1273
-  %1277 = fsub contract <8 x double> %1275, %1276
-  %1278 = fmul contract <8 x double> %1178, %1266
-  %1279 = fadd contract <8 x double> %1111, %1278
-  %1280 = fmul contract <8 x double> %1199, %1273
-  %1281 = fsub contract <8 x double> %1279, %1280
-  %1282 = fmul contract <8 x double> %1183, %1266
-  %1283 = fadd contract <8 x double> %1114, %1282
-  %1284 = fmul contract <8 x double> %1204, %1273
-  %1285 = fsub contract <8 x double> %1283, %1284
-  %1286 = fmul contract <8 x double> %1277, %1277
-  %1287 = fmul contract <8 x double> %1281, %1281
-  %1288 = fadd contract <8 x double> %1286, %1287
-  %1289 = fmul contract <8 x double> %1285, %1285
-  %1290 = fadd contract <8 x double> %1289, %1288
-  br label %1291
+  %1239 = fmul contract <8 x double> %1238, %1236
+  %1240 = fcmp contract ogt <8 x double> %1239, %1229
+  %1241 = select contract <8 x i1> %1240, <8 x double> %1239, <8 x double> %1229
+  %1242 = fcmp contract olt <8 x double> %1241, %1148
+  %1243 = select contract <8 x i1> %1242, <8 x double> %1241, <8 x double> %1148
+  %1244 = fmul contract <8 x double> %1201, %1243
+  %1245 = fsub contract <8 x double> %1244, %1206
+  %1246 = insertelement <8 x double> poison, double %1193, i64 0
+  %1247 = shufflevector <8 x double> %1246, <8 x double> poison, <8 x i32> zeroinitializer
+  %1248 = fmul contract <8 x double> %1247, %1245
+  %1249 = fcmp contract ogt <8 x double> %1248, %1229
+  %1250 = select contract <8 x i1> %1249, <8 x double> %1248, <8 x double> %1229
+  %1251 = fcmp contract olt <8 x double> %1250, %1148
+  %1252 = select contract <8 x i1> %1251, <8 x double> %1250, <8 x double> %1148
+  %1253 = fmul contract <8 x double> %1201, %1252
+  %1254 = fadd contract <8 x double> %1211, %1253
+  %1255 = fmul contract <8 x double> %1238, %1254
+  %1256 = fcmp contract ogt <8 x double> %1255, %1229
+  %1257 = select contract <8 x i1> %1256, <8 x double> %1255, <8 x double> %1229
+  %1258 = fcmp contract olt <8 x double> %1257, %1148
+  %1259 = select contract <8 x i1> %1258, <8 x double> %1257, <8 x double> %1148
+  %1260 = fmul contract <8 x double> %1159, %1252
+  %1261 = fadd contract <8 x double> %1090, %1260
+  %1262 = fmul contract <8 x double> %1180, %1259
+  %1263 = fsub contract <8 x double> %1261, %1262
+  %1264 = fmul contract <8 x double> %1164, %1252
+  %1265 = fadd contract <8 x double> %1095, %1264
+  %1266 = fmul contract <8 x double> %1185, %1259
+  %1267 = fsub contract <8 x double> %1265, %1266
+  %1268 = fmul contract <8 x double> %1169, %1252
+  %1269 = fadd contract <8 x double> %1100, %1268
+  %1270 = fmul contract <8 x double> %1190, %1259
+  %1271 = fsub contract <8 x double> %1269, %1270
+  %1272 = fmul contract <8 x double> %1263, %1263
+  %1273 = fmul contract <8 x double> %1267, %1267
+  %1274 = fadd contract <8 x double> %1272, %1273
+  %1275 = fmul contract <8 x double> %1271, %1271
+  %1276 = fadd contract <8 x double> %1275, %1274
+  br label %1277
 
-1291:
-  %1292 = phi <8 x double> [ %1290, %1160 ], [ %1119, %1124 ]
-  %1293 = fmul contract <8 x double> %1134, %1134
-  %1294 = fcmp contract olt <8 x double> %1292, %1293
-  %1295 = select <8 x i1> %1294, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %1044
-  br label %1296
+1277:
+  %1278 = phi <8 x double> [ %1276, %1146 ], [ %1105, %1110 ]
+  %1279 = fmul contract <8 x double> %1120, %1120
+  %1280 = fcmp contract olt <8 x double> %1278, %1279
+  %1281 = select <8 x i1> %1280, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %1035
+  br label %1282
+
+1282:
+  %1283 = phi i1 [ true, %1277 ], [ false, %1073 ], [ true, %1074 ], [ false, %1046 ]
+  %1284 = phi i64 [ %1075, %1277 ], [ %1038, %1073 ], [ %1075, %1074 ], [ %1040, %1046 ]
+  %1285 = phi <8 x i64> [ %1281, %1277 ], [ %1035, %1073 ], [ %1035, %1074 ], [ %1035, %1046 ]
+  %1286 = add nsw i64 %1036, 1
+  %1287 = icmp eq i64 %1286, %949
+  br i1 %1287, label %1032, label %1034
+
+1288:
+  %1289 = phi i64 [ %1029, %1032 ], [ %801, %799 ]
+  %1290 = phi <8 x i64> [ %1033, %1032 ], [ %800, %799 ]
+  %1291 = add nuw nsw i64 %802, 1
+  %1292 = icmp eq i64 %1291, %25
+  br i1 %1292, label %797, label %799
+
+1293:
+  %1294 = phi <8 x i64> [ %798, %797 ], [ %686, %684 ]
+  call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %12)
+  call void @llvm.lifetime.end.p0(i64 8704, ptr nonnull %11)
+  call void @llvm.lifetime.end.p0(i64 1088, ptr nonnull %10)
+  call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %9)
+  %1295 = icmp sgt i64 %201, 0
+  br i1 %1295, label %1313, label %1343
 
 1296:
-  %1297 = phi i1 [ true, %1291 ], [ false, %1082 ], [ true, %1092 ], [ false, %1055 ]
-  %1298 = phi i64 [ %1097, %1291 ], [ %1047, %1082 ], [ %1097, %1092 ], [ %1049, %1055 ]
-  %1299 = phi <8 x i64> [ %1295, %1291 ], [ %1044, %1082 ], [ %1044, %1092 ], [ %1044, %1055 ]
-  %1300 = add nsw i64 %1045, 1
-  %1301 = icmp eq i64 %1300, %958
-  br i1 %1301, label %1041, label %1043
+  %1297 = phi <8 x double> [ %202, %200 ], [ %1307, %1296 ]
+  %1298 = phi <8 x double> [ %203, %200 ], [ %1310, %1296 ]
+  %1299 = phi i64 [ 0, %200 ], [ %1311, %1296 ]
+  %1300 = icmp sgt i64 %201, %1299
+  %1301 = xor i64 %1299, -1
+  %1302 = select i1 %1300, i64 %1301, i64 -1
+  %1303 = add i64 %1302, %201
+  %1304 = getelementptr inbounds [4096 x %struct.Piece], ptr %14, i64 0, i64 %1303
+  %1305 = getelementptr inbounds [8 x %struct.Piece], ptr %15, i64 0, i64 %1299
+  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1305, ptr noundef nonnull align 16 dereferenceable(16) %1304, i64 16, i1 false)
+  %1306 = load double, ptr %1305, align 16
+  %1307 = insertelement <8 x double> %1297, double %1306, i64 %1299
+  %1308 = getelementptr inbounds i8, ptr %1305, i64 8
+  %1309 = load double, ptr %1308, align 8
+  %1310 = insertelement <8 x double> %1298, double %1309, i64 %1299
+  %1311 = add nuw nsw i64 %1299, 1
+  %1312 = icmp eq i64 %1311, 8
+  br i1 %1312, label %204, label %1296
 
-1302:
-  %1303 = phi i64 [ %1038, %1041 ], [ %810, %808 ]
-  %1304 = phi <8 x i64> [ %1042, %1041 ], [ %809, %808 ]
-  %1305 = add nuw nsw i64 %811, 1
-  %1306 = icmp eq i64 %1305, %55
-  br i1 %1306, label %806, label %808
+1313:
+  %1314 = phi i64 [ %1340, %1339 ], [ %206, %1293 ]
+  %1315 = phi i64 [ %1341, %1339 ], [ 0, %1293 ]
+  %1316 = extractelement <8 x i64> %1294, i64 %1315
+  %1317 = icmp eq i64 %1316, 0
+  br i1 %1317, label %1339, label %1318
 
-1307:
-  %1308 = phi <8 x i64> [ %807, %806 ], [ %695, %693 ]
-  call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %14)
-  call void @llvm.lifetime.end.p0(i64 8704, ptr nonnull %13)
-  call void @llvm.lifetime.end.p0(i64 1088, ptr nonnull %12)
-  call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %11)
-  %1309 = icmp sgt i64 %211, 0
-  br i1 %1309, label %1327, label %1357
-
-1310:
-  %1311 = phi <8 x double> [ %212, %210 ], [ %1321, %1310 ]
-  %1312 = phi <8 x double> [ %213, %210 ], [ %1324, %1310 ]
-  %1313 = phi i64 [ 0, %210 ], [ %1325, %1310 ]
-  %1314 = icmp sgt i64 %211, %1313
-  %1315 = xor i64 %1313, -1
-  %1316 = select i1 %1314, i64 %1315, i64 -1
-  %1317 = add i64 %1316, %211
-  %1318 = getelementptr inbounds [4096 x %struct.Piece], ptr %16, i64 0, i64 %1317
-  %1319 = getelementptr inbounds [8 x %struct.Piece], ptr %17, i64 0, i64 %1313
-  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1319, ptr noundef nonnull align 16 dereferenceable(16) %1318, i64 16, i1 false)
-  %1320 = load double, ptr %1319, align 16
-  %1321 = insertelement <8 x double> %1311, double %1320, i64 %1313
-  %1322 = getelementptr inbounds i8, ptr %1319, i64 8
-  %1323 = load double, ptr %1322, align 8
-  %1324 = insertelement <8 x double> %1312, double %1323, i64 %1313
-  %1325 = add nuw nsw i64 %1313, 1
-  %1326 = icmp eq i64 %1325, 8
-  br i1 %1326, label %214, label %1310
+1318:
+  %1319 = getelementptr inbounds [8 x %struct.Piece], ptr %15, i64 0, i64 %1315
+  %1320 = getelementptr inbounds i8, ptr %1319, i64 8
+  %1321 = load double, ptr %1320, align 8
+  %1322 = fmul contract double %157, %1321
+  %1323 = fmul contract double %1322, 2.000000e+00
+  %1324 = fcmp contract olt double %1323, %4
+  %1325 = icmp sgt i64 %1314, 4094
+  %1326 = select i1 %1324, i1 true, i1 %1325
+  br i1 %1326, label %1327, label %1328
 
 1327:
-  %1328 = phi i64 [ %1354, %1353 ], [ %216, %1307 ]
-  %1329 = phi i64 [ %1355, %1353 ], [ 0, %1307 ]
-  %1330 = extractelement <8 x i64> %1308, i64 %1329
-  %1331 = icmp eq i64 %1330, 0
-  br i1 %1331, label %1353, label %1332
+  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %15)
+  br label %1346
 
-1332:
-  %1333 = getelementptr inbounds [8 x %struct.Piece], ptr %17, i64 0, i64 %1329
+1328:
+  %1329 = fmul contract double %1321, 5.000000e-01
+  %1330 = load double, ptr %1319, align 16
+  %1331 = fsub contract double %1330, %1329
+  %1332 = add nsw i64 %1314, 1
+  %1333 = getelementptr inbounds [4096 x %struct.Piece], ptr %14, i64 0, i64 %1314
+  store double %1331, ptr %1333, align 16
   %1334 = getelementptr inbounds i8, ptr %1333, i64 8
-  %1335 = load double, ptr %1334, align 8
-  %1336 = fmul contract double %182, %1335
-  %1337 = fmul contract double %1336, 2.000000e+00
-  %1338 = fcmp contract olt double %1337, %5
-  %1339 = icmp sgt i64 %1328, 4094
-  %1340 = select i1 %1338, i1 true, i1 %1339
-  br i1 %1340, label %1341, label %1342
+  store double %1329, ptr %1334, align 8
+  %1335 = fadd contract double %1329, %1330
+  %1336 = add nsw i64 %1314, 2
+  %1337 = getelementptr inbounds [4096 x %struct.Piece], ptr %14, i64 0, i64 %1332
+  store double %1335, ptr %1337, align 16
+  %1338 = getelementptr inbounds i8, ptr %1337, i64 8
+  store double %1329, ptr %1338, align 8
+  br label %1339
 
-1341:
-  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %17)
-  br label %1360
+1339:
+  %1340 = phi i64 [ %1314, %1313 ], [ %1336, %1328 ]
+  %1341 = add nuw nsw i64 %1315, 1
+  %1342 = icmp eq i64 %1341, %205
+  br i1 %1342, label %1343, label %1313
 
-1342:
-  %1343 = fmul contract double %1335, 5.000000e-01
-  %1344 = load double, ptr %1333, align 16
-  %1345 = fsub contract double %1344, %1343
-  %1346 = add nsw i64 %1328, 1
-  %1347 = getelementptr inbounds [4096 x %struct.Piece], ptr %16, i64 0, i64 %1328
-  store double %1345, ptr %1347, align 16
-  %1348 = getelementptr inbounds i8, ptr %1347, i64 8
-  store double %1343, ptr %1348, align 8
-  %1349 = fadd contract double %1343, %1344
-  %1350 = add nsw i64 %1328, 2
-  %1351 = getelementptr inbounds [4096 x %struct.Piece], ptr %16, i64 0, i64 %1346
-  store double %1349, ptr %1351, align 16
-  %1352 = getelementptr inbounds i8, ptr %1351, i64 8
-  store double %1343, ptr %1352, align 8
-  br label %1353
+1343:
+  %1344 = phi i64 [ %206, %1293 ], [ %1340, %1339 ]
+  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %15)
+  %1345 = icmp eq i64 %1344, 0
+  br i1 %1345, label %1346, label %200
 
-1353:
-  %1354 = phi i64 [ %1328, %1327 ], [ %1350, %1342 ]
-  %1355 = add nuw nsw i64 %1329, 1
-  %1356 = icmp eq i64 %1355, %215
-  br i1 %1356, label %1357, label %1327
+1346:
+  %1347 = phi i1 [ false, %1327 ], [ true, %1343 ]
+  call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %14)
+  call void @llvm.lifetime.end.p0(i64 2448, ptr nonnull %13)
+  ret i1 %1347
+}
 
-1357:
-  %1358 = phi i64 [ %216, %1307 ], [ %1354, %1353 ]
-  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %17)
-  %1359 = icmp eq i64 %1358, 0
-  br i1 %1359, label %1360, label %210
+define void @prove_constraints(ptr noundef %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3, i64 noundef %4, ptr nocapture noundef writeonly %5) {
+  %7 = icmp sgt i64 %4, 0
+  br i1 %7, label %8, label %10
 
-1360:
-  %1361 = phi i8 [ 0, %1341 ], [ 1, %1357 ]
-  call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %16)
-  call void @llvm.lifetime.end.p0(i64 2448, ptr nonnull %15)
-  %1362 = getelementptr inbounds i8, ptr %6, i64 %44
-  store i8 %1361, ptr %1362, align 1
-  %1363 = add nuw nsw i64 %44, 1
-  %1364 = icmp eq i64 %1363, %4
-  br i1 %1364, label %42, label %43
+8:
+  %9 = getelementptr inbounds i8, ptr %0, i64 16
+  br label %11
+
+10:
+  ret void
+
+11:
+  %12 = phi i64 [ 0, %8 ], [ %23, %11 ]
+  %13 = load i64, ptr %0, align 8
+  %14 = mul nsw i64 %13, %12
+  %15 = getelementptr inbounds double, ptr %1, i64 %14
+  %16 = getelementptr inbounds double, ptr %2, i64 %14
+  %17 = load i64, ptr %9, align 8
+  %18 = mul nsw i64 %17, %12
+  %19 = getelementptr inbounds double, ptr %3, i64 %18
+  %20 = tail call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef %15, ptr noundef %16, ptr noundef %19)
+  %21 = zext i1 %20 to i8
+  %22 = getelementptr inbounds i8, ptr %5, i64 %12
+  store i8 %21, ptr %22, align 1
+  %23 = add nuw nsw i64 %12, 1
+  %24 = icmp eq i64 %23, %4
+  br i1 %24, label %10, label %11
+}
+
+define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3) unnamed_addr {
+  %5 = alloca [64 x <8 x double>], align 64
+  %6 = alloca [64 x <8 x double>], align 64
+  %7 = alloca [24 x <8 x double>], align 64
+  %8 = alloca [24 x <8 x double>], align 64
+  %9 = alloca [4096 x %struct.Piece.11], align 16
+  %10 = alloca %struct.Errors, align 64
+  %11 = alloca [8 x %struct.Piece.11], align 16
+  %12 = load i64, ptr %0, align 8
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %5)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %6)
+  call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %7)
+  call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %8)
+  %13 = icmp sgt i64 %12, 0
+  br i1 %13, label %105, label %43
+
+14:
+  br i1 %13, label %15, label %43
+
+15:
+  %16 = getelementptr inbounds i8, ptr %0, i64 88
+  %17 = load ptr, ptr %16, align 8
+  br label %22
+
+18:
+  br i1 %13, label %19, label %43
+
+19:
+  %20 = getelementptr inbounds i8, ptr %0, i64 96
+  %21 = load ptr, ptr %20, align 8
+  br label %36
+
+22:
+  %23 = phi <8 x double> [ zeroinitializer, %15 ], [ %33, %22 ]
+  %24 = phi i64 [ 0, %15 ], [ %34, %22 ]
+  %25 = getelementptr inbounds <8 x double>, ptr %5, i64 %24
+  %26 = load <8 x double>, ptr %25, align 64
+  %27 = tail call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %26)
+  %28 = getelementptr inbounds double, ptr %17, i64 %24
+  %29 = load double, ptr %28, align 8
+  %30 = insertelement <8 x double> poison, double %29, i64 0
+  %31 = shufflevector <8 x double> %30, <8 x double> poison, <8 x i32> zeroinitializer
+  %32 = fmul contract <8 x double> %27, %31
+  %33 = fadd contract <8 x double> %23, %32
+  %34 = add nuw nsw i64 %24, 1
+  %35 = icmp eq i64 %34, %12
+  br i1 %35, label %18, label %22
+
+36:
+  %37 = phi i64 [ 0, %19 ], [ %54, %53 ]
+  %38 = phi <8 x double> [ zeroinitializer, %19 ], [ %68, %53 ]
+  %39 = getelementptr inbounds <8 x double>, ptr %5, i64 %37
+  %40 = load <8 x double>, ptr %39, align 64
+  %41 = mul nuw nsw i64 %37, %12
+  %42 = getelementptr double, ptr %21, i64 %41
+  br label %56
+
+43:
+  %44 = phi <8 x double> [ %33, %18 ], [ zeroinitializer, %14 ], [ zeroinitializer, %4 ], [ %33, %53 ]
+  %45 = phi <8 x double> [ zeroinitializer, %18 ], [ zeroinitializer, %14 ], [ zeroinitializer, %4 ], [ %68, %53 ]
+  %46 = getelementptr inbounds i8, ptr %0, i64 8
+  %47 = load i64, ptr %46, align 8
+  %48 = icmp sgt i64 %47, 0
+  br i1 %48, label %49, label %100
+
+49:
+  %50 = getelementptr inbounds i8, ptr %0, i64 40
+  %51 = load ptr, ptr %50, align 8
+  %52 = fmul contract <8 x double> %44, %44
+  br label %71
+
+53:
+  %54 = add nuw nsw i64 %37, 1
+  %55 = icmp eq i64 %54, %12
+  br i1 %55, label %43, label %36
+
+56:
+  %57 = phi i64 [ 0, %36 ], [ %69, %56 ]
+  %58 = phi <8 x double> [ %38, %36 ], [ %68, %56 ]
+  %59 = getelementptr inbounds <8 x double>, ptr %5, i64 %57
+  %60 = load <8 x double>, ptr %59, align 64
+  %61 = fmul contract <8 x double> %40, %60
+  %62 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %61)
+  %63 = getelementptr double, ptr %42, i64 %57
+  %64 = load double, ptr %63, align 8
+  %65 = insertelement <8 x double> poison, double %64, i64 0
+  %66 = shufflevector <8 x double> %65, <8 x double> poison, <8 x i32> zeroinitializer
+  %67 = fmul contract <8 x double> %62, %66
+  %68 = fadd contract <8 x double> %58, %67
+  %69 = add nuw nsw i64 %57, 1
+  %70 = icmp eq i64 %69, %12
+  br i1 %70, label %53, label %56
+
+71:
+  %72 = phi i64 [ 0, %49 ], [ %98, %96 ]
+  %73 = phi i64 [ 0, %49 ], [ %97, %96 ]
+  %74 = getelementptr inbounds %struct.Constraint, ptr %51, i64 %72
+  %75 = load i64, ptr %74, align 8
+  %76 = icmp eq i64 %75, 0
+  br i1 %76, label %80, label %77
+
+77:
+  %78 = add nsw i64 %73, 1
+  %79 = getelementptr inbounds <8 x double>, ptr %7, i64 %73
+  store <8 x double> %45, ptr %79, align 64
+  br label %80
+
+80:
+  %81 = phi i64 [ %78, %77 ], [ %73, %71 ]
+  %82 = getelementptr inbounds i8, ptr %74, i64 8
+  %83 = load i64, ptr %82, align 8
+  %84 = icmp eq i64 %83, 0
+  br i1 %84, label %85, label %89
+
+85:
+  %86 = getelementptr inbounds i8, ptr %74, i64 16
+  %87 = load i64, ptr %86, align 8
+  %88 = icmp eq i64 %87, 0
+  br i1 %88, label %96, label %89
+
+89:
+  %90 = phi double [ 1.000000e+00, %85 ], [ 0x3FF6A09E667F3BCD, %80 ]
+  %91 = insertelement <8 x double> poison, double %90, i64 0
+  %92 = shufflevector <8 x double> %91, <8 x double> poison, <8 x i32> zeroinitializer
+  %93 = fmul contract <8 x double> %52, %92
+  %94 = add nsw i64 %81, 1
+  %95 = getelementptr inbounds <8 x double>, ptr %7, i64 %81
+  store <8 x double> %93, ptr %95, align 64
+  br label %96
+
+96:
+  %97 = phi i64 [ %94, %89 ], [ %81, %85 ]
+  %98 = add nuw nsw i64 %72, 1
+  %99 = icmp eq i64 %98, %47
+  br i1 %99, label %100, label %71
+
+100:
+  call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %9)
+  store double 0.000000e+00, ptr %9, align 16
+  %101 = getelementptr inbounds i8, ptr %9, i64 8
+  store double 1.000000e+00, ptr %101, align 8
+  call void @llvm.lifetime.start.p0(i64 101440, ptr nonnull %10)
+  %102 = getelementptr inbounds i8, ptr %0, i64 16
+  %103 = getelementptr inbounds i8, ptr %10, i64 64
+  %104 = getelementptr inbounds i8, ptr %0, i64 56
+  br label %115
+
+105:
+  %106 = phi i64 [ %113, %105 ], [ 0, %4 ]
+  %107 = getelementptr inbounds double, ptr %2, i64 %106
+  %108 = load double, ptr %107, align 8
+  %109 = insertelement <8 x double> poison, double %108, i64 0
+  %110 = fadd contract <8 x double> %109, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %111 = shufflevector <8 x double> %110, <8 x double> poison, <8 x i32> zeroinitializer
+  %112 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %106
+  store <8 x double> %111, ptr %112, align 64
+  %113 = add nuw nsw i64 %106, 1
+  %114 = icmp eq i64 %113, %12
+  br i1 %114, label %14, label %105
+
+115:
+  %116 = phi i64 [ 1, %100 ], [ %253, %252 ]
+  %117 = phi <8 x double> [ undef, %100 ], [ %133, %252 ]
+  %118 = phi <8 x double> [ undef, %100 ], [ %136, %252 ]
+  call void @llvm.lifetime.start.p0(i64 128, ptr nonnull %11)
+  br label %122
+
+119:
+  %120 = call i64 @llvm.smin.i64(i64 %116, i64 8)
+  %121 = sub nsw i64 %116, %120
+  br i1 %13, label %142, label %139
+
+122:
+  %123 = phi <8 x double> [ %117, %115 ], [ %133, %122 ]
+  %124 = phi <8 x double> [ %118, %115 ], [ %136, %122 ]
+  %125 = phi i64 [ 0, %115 ], [ %137, %122 ]
+  %126 = icmp sgt i64 %116, %125
+  %127 = xor i64 %125, -1
+  %128 = select i1 %126, i64 %127, i64 -1
+  %129 = add i64 %128, %116
+  %130 = getelementptr inbounds [4096 x %struct.Piece.11], ptr %9, i64 0, i64 %129
+  %131 = getelementptr inbounds [8 x %struct.Piece.11], ptr %11, i64 0, i64 %125
+  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %131, ptr noundef nonnull align 16 dereferenceable(16) %130, i64 16, i1 false)
+  %132 = load double, ptr %131, align 16
+  %133 = insertelement <8 x double> %123, double %132, i64 %125
+  %134 = getelementptr inbounds i8, ptr %131, i64 8
+  %135 = load double, ptr %134, align 8
+  %136 = insertelement <8 x double> %124, double %135, i64 %125
+  %137 = add nuw nsw i64 %125, 1
+  %138 = icmp eq i64 %137, 8
+  br i1 %138, label %119, label %122
+
+139:
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %10, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %6)
+  %140 = load i64, ptr %102, align 8
+  %141 = icmp sgt i64 %140, 0
+  br i1 %141, label %160, label %157
+
+142:
+  %143 = phi i64 [ %155, %142 ], [ 0, %119 ]
+  %144 = getelementptr inbounds double, ptr %1, i64 %143
+  %145 = load double, ptr %144, align 8
+  %146 = insertelement <8 x double> poison, double %145, i64 0
+  %147 = shufflevector <8 x double> %146, <8 x double> poison, <8 x i32> zeroinitializer
+  %148 = getelementptr inbounds double, ptr %2, i64 %143
+  %149 = load double, ptr %148, align 8
+  %150 = insertelement <8 x double> poison, double %149, i64 0
+  %151 = shufflevector <8 x double> %150, <8 x double> poison, <8 x i32> zeroinitializer
+  %152 = fmul contract <8 x double> %133, %151
+  %153 = fadd contract <8 x double> %147, %152
+  %154 = getelementptr inbounds [64 x <8 x double>], ptr %6, i64 0, i64 %143
+  store <8 x double> %153, ptr %154, align 64
+  %155 = add nuw nsw i64 %143, 1
+  %156 = icmp eq i64 %155, %12
+  br i1 %156, label %139, label %142
+
+157:
+  br i1 %13, label %158, label %167
+
+158:
+  %159 = fadd contract <8 x double> %136, %133
+  br label %174
+
+160:
+  %161 = phi i64 [ %165, %160 ], [ 0, %139 ]
+  %162 = getelementptr inbounds [24 x <8 x double>], ptr %103, i64 0, i64 %161
+  %163 = load <8 x double>, ptr %162, align 64
+  %164 = getelementptr inbounds [24 x <8 x double>], ptr %8, i64 0, i64 %161
+  store <8 x double> %163, ptr %164, align 64
+  %165 = add nuw nsw i64 %161, 1
+  %166 = icmp eq i64 %165, %140
+  br i1 %166, label %157, label %160
+
+167:
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %10, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %6)
+  %168 = load i64, ptr %102, align 8
+  %169 = icmp sgt i64 %168, 0
+  br i1 %169, label %170, label %189
+
+170:
+  %171 = load ptr, ptr %104, align 8
+  %172 = fmul contract <8 x double> %136, <double 1.250000e-01, double 1.250000e-01, double 1.250000e-01, double 1.250000e-01, double 1.250000e-01, double 1.250000e-01, double 1.250000e-01, double 1.250000e-01>
+  %173 = fmul contract <8 x double> %136, %172
+  br label %197
+
+174:
+  %175 = phi i64 [ 0, %158 ], [ %187, %174 ]
+  %176 = getelementptr inbounds double, ptr %1, i64 %175
+  %177 = load double, ptr %176, align 8
+  %178 = insertelement <8 x double> poison, double %177, i64 0
+  %179 = shufflevector <8 x double> %178, <8 x double> poison, <8 x i32> zeroinitializer
+  %180 = getelementptr inbounds double, ptr %2, i64 %175
+  %181 = load double, ptr %180, align 8
+  %182 = insertelement <8 x double> poison, double %181, i64 0
+  %183 = shufflevector <8 x double> %182, <8 x double> poison, <8 x i32> zeroinitializer
+  %184 = fmul contract <8 x double> %159, %183
+  %185 = fadd contract <8 x double> %179, %184
+  %186 = getelementptr inbounds [64 x <8 x double>], ptr %6, i64 0, i64 %175
+  store <8 x double> %185, ptr %186, align 64
+  %187 = add nuw nsw i64 %175, 1
+  %188 = icmp eq i64 %187, %12
+  br i1 %188, label %167, label %174
+
+189:
+  %190 = phi <8 x i64> [ zeroinitializer, %167 ], [ %220, %197 ]
+  %191 = phi <8 x i64> [ zeroinitializer, %167 ], [ %222, %197 ]
+  %192 = icmp ne <8 x i64> %191, zeroinitializer
+  %193 = bitcast <8 x i1> %192 to i8
+  %194 = icmp eq i8 %193, 0
+  br i1 %194, label %195, label %251
+
+195:
+  %196 = icmp sgt i64 %116, 0
+  br i1 %196, label %225, label %252
+
+197:
+  %198 = phi i64 [ 0, %170 ], [ %223, %197 ]
+  %199 = phi <8 x i64> [ zeroinitializer, %170 ], [ %222, %197 ]
+  %200 = phi <8 x i64> [ zeroinitializer, %170 ], [ %220, %197 ]
+  %201 = getelementptr inbounds double, ptr %171, i64 %198
+  %202 = load double, ptr %201, align 8
+  %203 = fadd contract double %202, 1.000000e-09
+  %204 = getelementptr inbounds double, ptr %3, i64 %198
+  %205 = load double, ptr %204, align 8
+  %206 = fsub contract double %203, %205
+  %207 = insertelement <8 x double> poison, double %206, i64 0
+  %208 = shufflevector <8 x double> %207, <8 x double> poison, <8 x i32> zeroinitializer
+  %209 = getelementptr inbounds [24 x <8 x double>], ptr %8, i64 0, i64 %198
+  %210 = load <8 x double>, ptr %209, align 64
+  %211 = getelementptr inbounds [24 x <8 x double>], ptr %103, i64 0, i64 %198
+  %212 = load <8 x double>, ptr %211, align 64
+  %213 = fcmp contract ogt <8 x double> %210, %212
+  %214 = select contract <8 x i1> %213, <8 x double> %210, <8 x double> %212
+  %215 = fsub contract <8 x double> %208, %214
+  %216 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %198
+  %217 = load <8 x double>, ptr %216, align 64
+  %218 = fmul contract <8 x double> %173, %217
+  %219 = fcmp contract ult <8 x double> %215, %218
+  %220 = select <8 x i1> %219, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %200
+  %221 = fcmp contract ult <8 x double> %215, zeroinitializer
+  %222 = select <8 x i1> %221, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %199
+  %223 = add nuw nsw i64 %198, 1
+  %224 = icmp eq i64 %223, %168
+  br i1 %224, label %189, label %197
+
+225:
+  %226 = phi i64 [ %248, %247 ], [ %121, %195 ]
+  %227 = phi i64 [ %249, %247 ], [ 0, %195 ]
+  %228 = extractelement <8 x i64> %190, i64 %227
+  %229 = icmp eq i64 %228, 0
+  br i1 %229, label %247, label %230
+
+230:
+  %231 = getelementptr inbounds [8 x %struct.Piece.11], ptr %11, i64 0, i64 %227
+  %232 = getelementptr inbounds i8, ptr %231, i64 8
+  %233 = load double, ptr %232, align 8
+  %234 = fmul contract double %233, 5.000000e-01
+  %235 = fcmp contract olt double %234, 3.906250e-03
+  %236 = icmp sgt i64 %226, 4094
+  %237 = select i1 %235, i1 true, i1 %236
+  br i1 %237, label %251, label %238
+
+238:
+  %239 = load double, ptr %231, align 16
+  %240 = add nsw i64 %226, 1
+  %241 = getelementptr inbounds [4096 x %struct.Piece.11], ptr %9, i64 0, i64 %226
+  store double %239, ptr %241, align 16
+  %242 = getelementptr inbounds i8, ptr %241, i64 8
+  store double %234, ptr %242, align 8
+  %243 = fadd contract double %234, %239
+  %244 = add nsw i64 %226, 2
+  %245 = getelementptr inbounds [4096 x %struct.Piece.11], ptr %9, i64 0, i64 %240
+  store double %243, ptr %245, align 16
+  %246 = getelementptr inbounds i8, ptr %245, i64 8
+  store double %234, ptr %246, align 8
+  br label %247
+
+247:
+  %248 = phi i64 [ %226, %225 ], [ %244, %238 ]
+  %249 = add nuw nsw i64 %227, 1
+  %250 = icmp eq i64 %249, %120
+  br i1 %250, label %252, label %225
+
+251:
+  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %11)
+  br label %255
+
+252:
+  %253 = phi i64 [ %121, %195 ], [ %248, %247 ]
+  call void @llvm.lifetime.end.p0(i64 128, ptr nonnull %11)
+  %254 = icmp eq i64 %253, 0
+  br i1 %254, label %255, label %115
+
+255:
+  %256 = phi i1 [ false, %251 ], [ true, %252 ]
+  call void @llvm.lifetime.end.p0(i64 101440, ptr nonnull %10)
+  call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %9)
+  call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %8)
+  call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %7)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %6)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %5)
+  ret i1 %256
+}
+
+define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture noundef readonly %2) {
+  %4 = alloca [64 x <8 x double>], align 64
+  %5 = alloca [64 x <8 x double>], align 64
+  %6 = alloca [24 x [24 x <8 x double>]], align 64
+  %7 = alloca [24 x <8 x double>], align 64
+  %8 = alloca [64 x <8 x double>], align 64
+  %9 = alloca [64 x <8 x double>], align 64
+  %10 = alloca [64 x <8 x double>], align 64
+  %11 = alloca [64 x <8 x double>], align 64
+  %12 = alloca [64 x <8 x double>], align 64
+  %13 = alloca [24 x <8 x double>], align 64
+  %14 = alloca [8 x i64], align 16
+  %15 = alloca %struct.Errors, align 64
+  %16 = alloca [64 x double], align 16
+  %17 = alloca [64 x double], align 16
+  %18 = load i64, ptr %0, align 8
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %8)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %9)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %10)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %11)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %12)
+  call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %13)
+  call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %14)
+  call void @llvm.lifetime.start.p0(i64 101440, ptr nonnull %15)
+  br label %21
+
+19:
+  %20 = icmp sgt i64 %18, 0
+  br i1 %20, label %49, label %26
+
+21:
+  %22 = phi i64 [ 0, %3 ], [ %24, %21 ]
+  %23 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %22
+  store i64 -1, ptr %23, align 8
+  %24 = add nuw nsw i64 %22, 1
+  %25 = icmp eq i64 %24, 8
+  br i1 %25, label %19, label %21
+
+26:
+  %27 = getelementptr inbounds i8, ptr %2, i64 24
+  %28 = getelementptr inbounds i8, ptr %2, i64 8
+  %29 = getelementptr inbounds i8, ptr %2, i64 16
+  %30 = getelementptr inbounds i8, ptr %2, i64 64
+  %31 = getelementptr inbounds i8, ptr %2, i64 72
+  %32 = getelementptr inbounds i8, ptr %0, i64 104
+  %33 = getelementptr inbounds i8, ptr %0, i64 24
+  %34 = getelementptr inbounds i8, ptr %0, i64 88
+  %35 = getelementptr inbounds i8, ptr %0, i64 96
+  %36 = getelementptr inbounds i8, ptr %0, i64 8
+  %37 = getelementptr inbounds i8, ptr %0, i64 40
+  %38 = getelementptr inbounds i8, ptr %0, i64 16
+  %39 = getelementptr inbounds i8, ptr %0, i64 64
+  %40 = getelementptr inbounds i8, ptr %0, i64 72
+  %41 = getelementptr inbounds i8, ptr %0, i64 80
+  %42 = getelementptr inbounds i8, ptr %15, i64 1600
+  %43 = getelementptr inbounds i8, ptr %15, i64 3136
+  %44 = getelementptr inbounds i8, ptr %2, i64 48
+  %45 = icmp eq ptr %1, null
+  %46 = getelementptr inbounds i8, ptr %2, i64 40
+  %47 = getelementptr inbounds i8, ptr %2, i64 56
+  %48 = getelementptr inbounds i8, ptr %2, i64 32
+  br label %56
+
+49:
+  %50 = phi i64 [ %53, %49 ], [ 0, %19 ]
+  %51 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %50
+  store <8 x double> zeroinitializer, ptr %51, align 64
+  %52 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %50
+  store <8 x double> zeroinitializer, ptr %52, align 64
+  %53 = add nuw nsw i64 %50, 1
+  %54 = icmp eq i64 %53, %18
+  br i1 %54, label %26, label %49
+
+55:
+  br label %56
+
+56:
+  %57 = phi <8 x i64> [ %63, %55 ], [ zeroinitializer, %26 ]
+  %58 = phi i64 [ %722, %55 ], [ 0, %26 ]
+  %59 = phi i64 [ %65, %55 ], [ 0, %26 ]
+  %60 = load i64, ptr %27, align 8
+  %61 = icmp slt i64 %59, %60
+  br i1 %61, label %68, label %62
+
+62:
+  %63 = phi <8 x i64> [ %57, %56 ], [ %114, %112 ]
+  %64 = phi i64 [ %58, %56 ], [ %115, %112 ]
+  %65 = phi i64 [ %59, %56 ], [ %116, %112 ]
+  %66 = icmp eq i64 %64, 0
+  br i1 %66, label %725, label %67
+
+67:
+  br i1 %20, label %235, label %121
+
+68:
+  %69 = phi i64 [ %113, %112 ], [ %60, %56 ]
+  %70 = phi i64 [ %116, %112 ], [ %59, %56 ]
+  %71 = phi i64 [ %115, %112 ], [ %58, %56 ]
+  %72 = phi <8 x i64> [ %114, %112 ], [ %57, %56 ]
+  %73 = phi i64 [ %117, %112 ], [ 0, %56 ]
+  %74 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %73
+  %75 = load i64, ptr %74, align 8
+  %76 = icmp sgt i64 %75, -1
+  br i1 %76, label %112, label %77
+
+77:
+  %78 = add nsw i64 %70, 1
+  store i64 %70, ptr %74, align 8
+  %79 = add nsw i64 %71, 1
+  br i1 %20, label %80, label %86
+
+80:
+  %81 = load ptr, ptr %2, align 8
+  %82 = mul nsw i64 %70, %18
+  %83 = getelementptr double, ptr %81, i64 %82
+  %84 = load ptr, ptr %28, align 8
+  %85 = getelementptr double, ptr %84, i64 %82
+  br label %98
+
+86:
+  %87 = load ptr, ptr %29, align 8
+  %88 = getelementptr inbounds i8, ptr %87, i64 %70
+  %89 = load i8, ptr %88, align 1
+  %90 = icmp ne i8 %89, 0
+  %91 = sext i1 %90 to i64
+  %92 = insertelement <8 x i64> %72, i64 %91, i64 %73
+  %93 = load ptr, ptr %30, align 8
+  %94 = getelementptr inbounds i64, ptr %93, i64 %70
+  store i64 0, ptr %94, align 8
+  %95 = load ptr, ptr %31, align 8
+  %96 = getelementptr inbounds i8, ptr %95, i64 %70
+  store i8 0, ptr %96, align 1
+  %97 = load i64, ptr %27, align 8
+  br label %112
+
+98:
+  %99 = phi i64 [ 0, %80 ], [ %110, %98 ]
+  %100 = getelementptr double, ptr %83, i64 %99
+  %101 = load double, ptr %100, align 8
+  %102 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %99
+  %103 = load <8 x double>, ptr %102, align 64
+  %104 = insertelement <8 x double> %103, double %101, i64 %73
+  store <8 x double> %104, ptr %102, align 64
+  %105 = getelementptr double, ptr %85, i64 %99
+  %106 = load double, ptr %105, align 8
+  %107 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %99
+  %108 = load <8 x double>, ptr %107, align 64
+  %109 = insertelement <8 x double> %108, double %106, i64 %73
+  store <8 x double> %109, ptr %107, align 64
+  %110 = add nuw nsw i64 %99, 1
+  %111 = icmp eq i64 %110, %18
+  br i1 %111, label %86, label %98
+
+112:
+  %113 = phi i64 [ %69, %68 ], [ %97, %86 ]
+  %114 = phi <8 x i64> [ %72, %68 ], [ %92, %86 ]
+  %115 = phi i64 [ %71, %68 ], [ %79, %86 ]
+  %116 = phi i64 [ %70, %68 ], [ %78, %86 ]
+  %117 = add nuw nsw i64 %73, 1
+  %118 = icmp ult i64 %73, 7
+  %119 = icmp slt i64 %116, %113
+  %120 = select i1 %118, i1 %119, i1 false
+  br i1 %120, label %68, label %62
+
+121:
+  %122 = load i64, ptr %0, align 8
+  %123 = icmp sgt i64 %122, 0
+  br i1 %123, label %124, label %167
+
+124:
+  %125 = load ptr, ptr %32, align 8
+  br label %130
+
+126:
+  %127 = load i64, ptr %33, align 8
+  %128 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %143)
+  %129 = load ptr, ptr %34, align 8
+  br label %151
+
+130:
+  %131 = phi <8 x double> [ zeroinitializer, %124 ], [ %143, %130 ]
+  %132 = phi i64 [ 0, %124 ], [ %146, %130 ]
+  %133 = phi <8 x double> [ zeroinitializer, %124 ], [ %145, %130 ]
+  %134 = getelementptr inbounds <8 x double>, ptr %10, i64 %132
+  %135 = load <8 x double>, ptr %134, align 64
+  %136 = getelementptr inbounds double, ptr %125, i64 %132
+  %137 = load double, ptr %136, align 8
+  %138 = insertelement <8 x double> poison, double %137, i64 0
+  %139 = shufflevector <8 x double> %138, <8 x double> poison, <8 x i32> zeroinitializer
+  %140 = fmul contract <8 x double> %135, %139
+  %141 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %140)
+  %142 = fmul contract <8 x double> %140, %140
+  %143 = fadd contract <8 x double> %131, %142
+  %144 = fcmp contract ogt <8 x double> %133, %141
+  %145 = select contract <8 x i1> %144, <8 x double> %133, <8 x double> %141
+  %146 = add nuw nsw i64 %132, 1
+  %147 = icmp eq i64 %146, %122
+  br i1 %147, label %126, label %130
+
+148:
+  %149 = icmp eq i64 %127, 0
+  %150 = load ptr, ptr %35, align 8
+  br label %176
+
+151:
+  %152 = phi <8 x double> [ zeroinitializer, %126 ], [ %162, %151 ]
+  %153 = phi i64 [ 0, %126 ], [ %163, %151 ]
+  %154 = getelementptr inbounds <8 x double>, ptr %10, i64 %153
+  %155 = load <8 x double>, ptr %154, align 64
+  %156 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %155)
+  %157 = getelementptr inbounds double, ptr %129, i64 %153
+  %158 = load double, ptr %157, align 8
+  %159 = insertelement <8 x double> poison, double %158, i64 0
+  %160 = shufflevector <8 x double> %159, <8 x double> poison, <8 x i32> zeroinitializer
+  %161 = fmul contract <8 x double> %156, %160
+  %162 = fadd contract <8 x double> %152, %161
+  %163 = add nuw nsw i64 %153, 1
+  %164 = icmp eq i64 %163, %122
+  br i1 %164, label %148, label %151
+
+165:
+  %166 = select contract i1 %149, <8 x double> %128, <8 x double> %145
+  br label %167
+
+167:
+  %168 = phi <8 x double> [ zeroinitializer, %121 ], [ %162, %165 ]
+  %169 = phi <8 x double> [ zeroinitializer, %121 ], [ %166, %165 ]
+  %170 = phi <8 x double> [ zeroinitializer, %121 ], [ %198, %165 ]
+  %171 = load i64, ptr %36, align 8
+  %172 = icmp sgt i64 %171, 0
+  br i1 %172, label %173, label %201
+
+173:
+  %174 = load ptr, ptr %37, align 8
+  %175 = fmul contract <8 x double> %168, %168
+  br label %206
+
+176:
+  %177 = phi i64 [ 0, %148 ], [ %184, %183 ]
+  %178 = phi <8 x double> [ zeroinitializer, %148 ], [ %198, %183 ]
+  %179 = getelementptr inbounds <8 x double>, ptr %10, i64 %177
+  %180 = load <8 x double>, ptr %179, align 64
+  %181 = mul nuw nsw i64 %177, %122
+  %182 = getelementptr double, ptr %150, i64 %181
+  br label %186
+
+183:
+  %184 = add nuw nsw i64 %177, 1
+  %185 = icmp eq i64 %184, %122
+  br i1 %185, label %165, label %176
+
+186:
+  %187 = phi i64 [ 0, %176 ], [ %199, %186 ]
+  %188 = phi <8 x double> [ %178, %176 ], [ %198, %186 ]
+  %189 = getelementptr inbounds <8 x double>, ptr %10, i64 %187
+  %190 = load <8 x double>, ptr %189, align 64
+  %191 = fmul contract <8 x double> %180, %190
+  %192 = call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %191)
+  %193 = getelementptr double, ptr %182, i64 %187
+  %194 = load double, ptr %193, align 8
+  %195 = insertelement <8 x double> poison, double %194, i64 0
+  %196 = shufflevector <8 x double> %195, <8 x double> poison, <8 x i32> zeroinitializer
+  %197 = fmul contract <8 x double> %192, %196
+  %198 = fadd contract <8 x double> %188, %197
+  %199 = add nuw nsw i64 %187, 1
+  %200 = icmp eq i64 %199, %122
+  br i1 %200, label %183, label %186
+
+201:
+  %202 = load i64, ptr %38, align 8
+  %203 = icmp sgt i64 %202, 0
+  br i1 %203, label %204, label %245
+
+204:
+  %205 = load ptr, ptr %39, align 8
+  br label %250
+
+206:
+  %207 = phi i64 [ 0, %173 ], [ %233, %231 ]
+  %208 = phi i64 [ 0, %173 ], [ %232, %231 ]
+  %209 = getelementptr inbounds %struct.Constraint, ptr %174, i64 %207
+  %210 = load i64, ptr %209, align 8
+  %211 = icmp eq i64 %210, 0
+  br i1 %211, label %215, label %212
+
+212:
+  %213 = add nsw i64 %208, 1
+  %214 = getelementptr inbounds <8 x double>, ptr %13, i64 %208
+  store <8 x double> %170, ptr %214, align 64
+  br label %215
+
+215:
+  %216 = phi i64 [ %213, %212 ], [ %208, %206 ]
+  %217 = getelementptr inbounds i8, ptr %209, i64 8
+  %218 = load i64, ptr %217, align 8
+  %219 = icmp eq i64 %218, 0
+  br i1 %219, label %220, label %224
+
+220:
+  %221 = getelementptr inbounds i8, ptr %209, i64 16
+  %222 = load i64, ptr %221, align 8
+  %223 = icmp eq i64 %222, 0
+  br i1 %223, label %231, label %224
+
+224:
+  %225 = phi double [ 1.000000e+00, %220 ], [ 0x3FF6A09E667F3BCD, %215 ]
+  %226 = insertelement <8 x double> poison, double %225, i64 0
+  %227 = shufflevector <8 x double> %226, <8 x double> poison, <8 x i32> zeroinitializer
+  %228 = fmul contract <8 x double> %175, %227
+  %229 = add nsw i64 %216, 1
+  %230 = getelementptr inbounds <8 x double>, ptr %13, i64 %216
+  store <8 x double> %228, ptr %230, align 64
+  br label %231
+
+231:
+  %232 = phi i64 [ %229, %224 ], [ %216, %220 ]
+  %233 = add nuw nsw i64 %207, 1
+  %234 = icmp eq i64 %233, %171
+  br i1 %234, label %201, label %206
+
+235:
+  %236 = phi i64 [ %243, %235 ], [ 0, %67 ]
+  %237 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %236
+  %238 = load <8 x double>, ptr %237, align 64
+  %239 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %236
+  %240 = load <8 x double>, ptr %239, align 64
+  %241 = fsub contract <8 x double> %238, %240
+  %242 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %236
+  store <8 x double> %241, ptr %242, align 64
+  %243 = add nuw nsw i64 %236, 1
+  %244 = icmp eq i64 %243, %18
+  br i1 %244, label %121, label %235
+
+245:
+  %246 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %201 ], [ %265, %250 ]
+  br i1 %20, label %274, label %247
+
+247:
+  %248 = fcmp contract oeq <8 x double> %246, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %249 = select <8 x i1> %248, <8 x i64> %63, <8 x i64> zeroinitializer
+  br label %282
+
+250:
+  %251 = phi i64 [ 0, %204 ], [ %266, %250 ]
+  %252 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %204 ], [ %265, %250 ]
+  %253 = getelementptr inbounds double, ptr %205, i64 %251
+  %254 = load double, ptr %253, align 8
+  %255 = fmul contract double %254, 4.000000e+00
+  %256 = insertelement <8 x double> poison, double %255, i64 0
+  %257 = shufflevector <8 x double> %256, <8 x double> poison, <8 x i32> zeroinitializer
+  %258 = getelementptr inbounds [24 x <8 x double>], ptr %13, i64 0, i64 %251
+  %259 = load <8 x double>, ptr %258, align 64
+  %260 = fcmp contract ogt <8 x double> %259, <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
+  %261 = select contract <8 x i1> %260, <8 x double> %259, <8 x double> <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
+  %262 = fdiv contract <8 x double> %257, %261
+  %263 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %262)
+  %264 = fcmp contract olt <8 x double> %252, %263
+  %265 = select contract <8 x i1> %264, <8 x double> %252, <8 x double> %263
+  %266 = add nuw nsw i64 %251, 1
+  %267 = icmp eq i64 %266, %202
+  br i1 %267, label %245, label %250
+
+268:
+  %269 = fcmp contract oeq <8 x double> %246, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %270 = select <8 x i1> %269, <8 x i64> %63, <8 x i64> zeroinitializer
+  %271 = load ptr, ptr %40, align 8
+  %272 = load ptr, ptr %41, align 8
+  %273 = icmp eq <8 x i64> %270, zeroinitializer
+  br label %569
+
+274:
+  %275 = phi i64 [ %280, %274 ], [ 0, %245 ]
+  %276 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %275
+  %277 = load <8 x double>, ptr %276, align 64
+  %278 = fmul contract <8 x double> %246, %277
+  %279 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %275
+  store <8 x double> %278, ptr %279, align 64
+  %280 = add nuw nsw i64 %275, 1
+  %281 = icmp eq i64 %280, %18
+  br i1 %281, label %268, label %274
+
+282:
+  %283 = phi <8 x i64> [ %249, %247 ], [ %270, %569 ]
+  %284 = xor <8 x i64> %283, <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>
+  br label %285
+
+285:
+  %286 = phi i64 [ 0, %282 ], [ %543, %542 ]
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %15, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %12)
+  %287 = load i64, ptr %15, align 64
+  %288 = icmp sgt i64 %287, 0
+  br i1 %288, label %303, label %289
+
+289:
+  %290 = phi <8 x double> [ zeroinitializer, %285 ], [ %310, %303 ]
+  %291 = fcmp contract ogt <8 x double> %290, <double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08>
+  %292 = select <8 x i1> %291, <8 x i64> %284, <8 x i64> zeroinitializer
+  %293 = icmp eq i64 %286, 12
+  %294 = icmp ne <8 x i64> %292, zeroinitializer
+  %295 = bitcast <8 x i1> %294 to i8
+  %296 = icmp eq i8 %295, 0
+  %297 = select i1 %293, i1 true, i1 %296
+  %298 = load i64, ptr %0, align 8
+  br i1 %297, label %299, label %313
+
+299:
+  %300 = icmp sgt i64 %298, 0
+  br i1 %300, label %301, label %544
+
+301:
+  %302 = load ptr, ptr %32, align 8
+  br label %551
+
+303:
+  %304 = phi i64 [ %311, %303 ], [ 0, %285 ]
+  %305 = phi <8 x double> [ %310, %303 ], [ zeroinitializer, %285 ]
+  %306 = getelementptr inbounds [24 x <8 x double>], ptr %42, i64 0, i64 %304
+  %307 = load <8 x double>, ptr %306, align 64
+  %308 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %307)
+  %309 = fcmp contract ogt <8 x double> %305, %308
+  %310 = select contract <8 x i1> %309, <8 x double> %305, <8 x double> %308
+  %311 = add nuw nsw i64 %304, 1
+  %312 = icmp eq i64 %311, %287
+  br i1 %312, label %289, label %303
+
+313:
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %4)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %5)
+  call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %6)
+  call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %7)
+  %314 = icmp sgt i64 %298, 0
+  %315 = load ptr, ptr %40, align 8
+  %316 = load ptr, ptr %41, align 8
+  br i1 %314, label %317, label %330
+
+317:
+  %318 = phi i64 [ %328, %317 ], [ 0, %313 ]
+  %319 = getelementptr inbounds double, ptr %315, i64 %318
+  %320 = load double, ptr %319, align 8
+  %321 = getelementptr inbounds double, ptr %316, i64 %318
+  %322 = load double, ptr %321, align 8
+  %323 = fcmp contract olt double %320, %322
+  %324 = uitofp i1 %323 to double
+  %325 = insertelement <8 x double> poison, double %324, i64 0
+  %326 = shufflevector <8 x double> %325, <8 x double> poison, <8 x i32> zeroinitializer
+  %327 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %318
+  store <8 x double> %326, ptr %327, align 64
+  %328 = add nuw nsw i64 %318, 1
+  %329 = icmp eq i64 %328, %298
+  br i1 %329, label %330, label %317
+
+330:
+  br label %331
+
+331:
+  %332 = phi i1 [ false, %450 ], [ true, %330 ]
+  br i1 %288, label %336, label %426
+
+333:
+  %334 = fmul contract <8 x double> %352, <double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10>
+  %335 = fadd contract <8 x double> %334, <double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B>
+  br label %369
+
+336:
+  %337 = phi i64 [ %345, %343 ], [ 1, %331 ]
+  %338 = phi i64 [ %344, %343 ], [ 0, %331 ]
+  %339 = phi <8 x double> [ %352, %343 ], [ zeroinitializer, %331 ]
+  br label %340
+
+340:
+  %341 = phi i64 [ 0, %336 ], [ %353, %347 ]
+  %342 = phi <8 x double> [ %339, %336 ], [ %352, %347 ]
+  br i1 %314, label %355, label %347
+
+343:
+  %344 = add nuw nsw i64 %338, 1
+  %345 = add nuw i64 %337, 1
+  %346 = icmp eq i64 %344, %287
+  br i1 %346, label %333, label %336
+
+347:
+  %348 = phi <8 x double> [ zeroinitializer, %340 ], [ %366, %355 ]
+  %349 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %338, i64 %341
+  store <8 x double> %348, ptr %349, align 64
+  %350 = icmp eq i64 %338, %341
+  %351 = fadd contract <8 x double> %342, %348
+  %352 = select i1 %350, <8 x double> %351, <8 x double> %342
+  %353 = add nuw nsw i64 %341, 1
+  %354 = icmp eq i64 %353, %337
+  br i1 %354, label %343, label %340
+
+355:
+  %356 = phi i64 [ %367, %355 ], [ 0, %340 ]
+  %357 = phi <8 x double> [ %366, %355 ], [ zeroinitializer, %340 ]
+  %358 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %338, i64 %356
+  %359 = load <8 x double>, ptr %358, align 64
+  %360 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %341, i64 %356
+  %361 = load <8 x double>, ptr %360, align 64
+  %362 = fmul contract <8 x double> %359, %361
+  %363 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %356
+  %364 = load <8 x double>, ptr %363, align 64
+  %365 = fmul contract <8 x double> %362, %364
+  %366 = fadd contract <8 x double> %357, %365
+  %367 = add nuw nsw i64 %356, 1
+  %368 = icmp eq i64 %367, %298
+  br i1 %368, label %347, label %355
+
+369:
+  %370 = phi i64 [ 0, %333 ], [ %397, %389 ]
+  %371 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %370
+  %372 = load <8 x double>, ptr %371, align 64
+  %373 = fadd contract <8 x double> %335, %372
+  store <8 x double> %373, ptr %371, align 64
+  %374 = getelementptr inbounds [24 x <8 x double>], ptr %42, i64 0, i64 %370
+  %375 = load <8 x double>, ptr %374, align 64
+  %376 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %370
+  store <8 x double> %375, ptr %376, align 64
+  %377 = icmp eq i64 %370, 0
+  br i1 %377, label %389, label %378
+
+378:
+  %379 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 0
+  br label %380
+
+380:
+  %381 = phi <8 x double> [ %375, %378 ], [ %412, %399 ]
+  %382 = phi i64 [ 0, %378 ], [ %413, %399 ]
+  %383 = icmp eq i64 %382, 0
+  br i1 %383, label %384, label %386
+
+384:
+  %385 = load <8 x double>, ptr %379, align 64
+  br label %399
+
+386:
+  %387 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %382
+  %388 = load <8 x double>, ptr %387, align 64
+  br label %415
+
+389:
+  %390 = phi <8 x double> [ %375, %369 ], [ %412, %399 ]
+  %391 = phi <8 x double> [ %373, %369 ], [ %407, %399 ]
+  %392 = fcmp contract ogt <8 x double> %391, <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
+  %393 = select contract <8 x i1> %392, <8 x double> %391, <8 x double> <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
+  %394 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %393)
+  %395 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %394
+  store <8 x double> %395, ptr %371, align 64
+  %396 = fmul contract <8 x double> %390, %395
+  store <8 x double> %396, ptr %376, align 64
+  %397 = add nuw nsw i64 %370, 1
+  %398 = icmp eq i64 %397, %287
+  br i1 %398, label %427, label %369
+
+399:
+  %400 = phi <8 x double> [ %385, %384 ], [ %423, %415 ]
+  %401 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %382, i64 %382
+  %402 = load <8 x double>, ptr %401, align 64
+  %403 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %382
+  %404 = fmul contract <8 x double> %400, %402
+  store <8 x double> %404, ptr %403, align 64
+  %405 = fmul contract <8 x double> %404, %404
+  %406 = load <8 x double>, ptr %371, align 64
+  %407 = fsub contract <8 x double> %406, %405
+  store <8 x double> %407, ptr %371, align 64
+  %408 = load <8 x double>, ptr %403, align 64
+  %409 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %382
+  %410 = load <8 x double>, ptr %409, align 64
+  %411 = fmul contract <8 x double> %408, %410
+  %412 = fsub contract <8 x double> %381, %411
+  store <8 x double> %412, ptr %376, align 64
+  %413 = add nuw nsw i64 %382, 1
+  %414 = icmp eq i64 %413, %370
+  br i1 %414, label %389, label %380
+
+415:
+  %416 = phi <8 x double> [ %388, %386 ], [ %423, %415 ]
+  %417 = phi i64 [ 0, %386 ], [ %424, %415 ]
+  %418 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %417
+  %419 = load <8 x double>, ptr %418, align 64
+  %420 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %382, i64 %417
+  %421 = load <8 x double>, ptr %420, align 64
+  %422 = fmul contract <8 x double> %419, %421
+  %423 = fsub contract <8 x double> %416, %422
+  store <8 x double> %423, ptr %387, align 64
+  %424 = add nuw nsw i64 %417, 1
+  %425 = icmp eq i64 %424, %382
+  br i1 %425, label %399, label %415
+
+426:
+  br i1 %314, label %455, label %542
+
+427:
+  %428 = phi i64 [ %429, %433 ], [ %287, %389 ]
+  %429 = add nsw i64 %428, -1
+  %430 = icmp slt i64 %428, %287
+  %431 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %429
+  %432 = load <8 x double>, ptr %431, align 64
+  br i1 %430, label %439, label %433
+
+433:
+  %434 = phi <8 x double> [ %432, %427 ], [ %447, %439 ]
+  %435 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %429, i64 %429
+  %436 = load <8 x double>, ptr %435, align 64
+  %437 = fmul contract <8 x double> %434, %436
+  store <8 x double> %437, ptr %431, align 64
+  %438 = icmp sgt i64 %428, 1
+  br i1 %438, label %427, label %426
+
+439:
+  %440 = phi <8 x double> [ %447, %439 ], [ %432, %427 ]
+  %441 = phi i64 [ %448, %439 ], [ %428, %427 ]
+  %442 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %441, i64 %429
+  %443 = load <8 x double>, ptr %442, align 64
+  %444 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %441
+  %445 = load <8 x double>, ptr %444, align 64
+  %446 = fmul contract <8 x double> %443, %445
+  %447 = fsub contract <8 x double> %440, %446
+  store <8 x double> %447, ptr %431, align 64
+  %448 = add nuw nsw i64 %441, 1
+  %449 = icmp eq i64 %448, %287
+  br i1 %449, label %433, label %439
+
+450:
+  %451 = icmp ne <8 x i64> %495, zeroinitializer
+  %452 = bitcast <8 x i1> %451 to i8
+  %453 = icmp ne i8 %452, 0
+  %454 = and i1 %332, %453
+  br i1 %454, label %331, label %503
+
+455:
+  %456 = phi i64 [ %496, %494 ], [ 0, %426 ]
+  %457 = phi <8 x i64> [ %495, %494 ], [ zeroinitializer, %426 ]
+  %458 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %456
+  br i1 %288, label %481, label %459
+
+459:
+  %460 = phi <8 x double> [ zeroinitializer, %455 ], [ %489, %481 ]
+  %461 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %456
+  %462 = load <8 x double>, ptr %461, align 64
+  %463 = fmul contract <8 x double> %460, %462
+  store <8 x double> %463, ptr %458, align 64
+  %464 = getelementptr inbounds <8 x double>, ptr %12, i64 %456
+  %465 = load <8 x double>, ptr %464, align 64
+  %466 = getelementptr inbounds double, ptr %315, i64 %456
+  %467 = load double, ptr %466, align 8
+  %468 = insertelement <8 x double> poison, double %467, i64 0
+  %469 = shufflevector <8 x double> %468, <8 x double> poison, <8 x i32> zeroinitializer
+  %470 = fcmp contract ole <8 x double> %465, %469
+  %471 = fcmp contract olt <8 x double> %463, zeroinitializer
+  %472 = and <8 x i1> %470, %471
+  %473 = getelementptr inbounds double, ptr %316, i64 %456
+  %474 = load double, ptr %473, align 8
+  %475 = insertelement <8 x double> poison, double %474, i64 0
+  %476 = shufflevector <8 x double> %475, <8 x double> poison, <8 x i32> zeroinitializer
+  %477 = fcmp contract oge <8 x double> %465, %476
+  %478 = fcmp contract ogt <8 x double> %463, zeroinitializer
+  %479 = and <8 x i1> %477, %478
+  %480 = or <8 x i1> %479, %472
+  br i1 %332, label %492, label %494
+
+481:
+  %482 = phi <8 x double> [ %489, %481 ], [ zeroinitializer, %455 ]
+  %483 = phi i64 [ %490, %481 ], [ 0, %455 ]
+  %484 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %483, i64 %456
+  %485 = load <8 x double>, ptr %484, align 64
+  %486 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %483
+  %487 = load <8 x double>, ptr %486, align 64
+  %488 = fmul contract <8 x double> %485, %487
+  %489 = fadd contract <8 x double> %482, %488
+  %490 = add nuw nsw i64 %483, 1
+  %491 = icmp eq i64 %490, %287
+  br i1 %491, label %459, label %481
+
+492:
+  %493 = select contract <8 x i1> %480, <8 x double> zeroinitializer, <8 x double> %462
+  store <8 x double> %493, ptr %461, align 64
+  br label %494
+
+494:
+  %495 = select <8 x i1> %480, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %457
+  %496 = add nuw nsw i64 %456, 1
+  %497 = icmp eq i64 %496, %298
+  br i1 %497, label %450, label %455
+
+498:
+  %499 = fdiv contract <8 x double> <double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01>, %510
+  %500 = fcmp contract ogt <8 x double> %499, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %501 = select contract <8 x i1> %500, <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, <8 x double> %499
+  %502 = icmp eq <8 x i64> %292, zeroinitializer
+  br label %513
+
+503:
+  %504 = phi <8 x double> [ %510, %503 ], [ <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>, %450 ]
+  %505 = phi i64 [ %511, %503 ], [ 0, %450 ]
+  %506 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %505
+  %507 = load <8 x double>, ptr %506, align 64
+  %508 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %507)
+  %509 = fcmp contract ogt <8 x double> %504, %508
+  %510 = select contract <8 x i1> %509, <8 x double> %504, <8 x double> %508
+  %511 = add nuw nsw i64 %505, 1
+  %512 = icmp eq i64 %511, %298
+  br i1 %512, label %498, label %503
+
+513:
+  %514 = phi i64 [ 0, %498 ], [ %540, %513 ]
+  %515 = getelementptr inbounds <8 x double>, ptr %12, i64 %514
+  %516 = load <8 x double>, ptr %515, align 64
+  %517 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %514
+  %518 = load <8 x double>, ptr %517, align 64
+  %519 = fmul contract <8 x double> %501, %518
+  %520 = fadd contract <8 x double> %516, %519
+  %521 = getelementptr inbounds double, ptr %315, i64 %514
+  %522 = load double, ptr %521, align 8
+  %523 = insertelement <8 x double> poison, double %522, i64 0
+  %524 = fadd contract <8 x double> %523, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %525 = shufflevector <8 x double> %524, <8 x double> poison, <8 x i32> zeroinitializer
+  %526 = fcmp contract ogt <8 x double> %520, %525
+  %527 = select contract <8 x i1> %526, <8 x double> %520, <8 x double> %525
+  %528 = getelementptr inbounds double, ptr %316, i64 %514
+  %529 = load double, ptr %528, align 8
+  %530 = insertelement <8 x double> poison, double %529, i64 0
+  %531 = fadd contract <8 x double> %530, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %532 = shufflevector <8 x double> %531, <8 x double> poison, <8 x i32> zeroinitializer
+  %533 = fcmp contract olt <8 x double> %527, %532
+  %534 = select contract <8 x i1> %533, <8 x double> %527, <8 x double> %532
+  %535 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %514
+  %536 = load <8 x double>, ptr %535, align 64
+  %537 = fcmp contract ule <8 x double> %536, zeroinitializer
+  %538 = select <8 x i1> %537, <8 x i1> <i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true>, <8 x i1> %502
+  %539 = select contract <8 x i1> %538, <8 x double> %516, <8 x double> %534
+  store <8 x double> %539, ptr %515, align 64
+  %540 = add nuw nsw i64 %514, 1
+  %541 = icmp eq i64 %540, %298
+  br i1 %541, label %542, label %513
+
+542:
+  call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %7)
+  call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %5)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %4)
+  %543 = add nuw nsw i64 %286, 1
+  br label %285
+
+544:
+  %545 = phi <8 x double> [ zeroinitializer, %299 ], [ %566, %551 ]
+  %546 = phi <8 x double> [ zeroinitializer, %299 ], [ %564, %551 ]
+  %547 = load i64, ptr %33, align 8
+  %548 = icmp eq i64 %547, 0
+  %549 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %546)
+  %550 = select contract i1 %548, <8 x double> %549, <8 x double> %545
+  br i1 %20, label %623, label %596
+
+551:
+  %552 = phi <8 x double> [ zeroinitializer, %301 ], [ %564, %551 ]
+  %553 = phi i64 [ 0, %301 ], [ %567, %551 ]
+  %554 = phi <8 x double> [ zeroinitializer, %301 ], [ %566, %551 ]
+  %555 = getelementptr inbounds <8 x double>, ptr %11, i64 %553
+  %556 = load <8 x double>, ptr %555, align 64
+  %557 = getelementptr inbounds double, ptr %302, i64 %553
+  %558 = load double, ptr %557, align 8
+  %559 = insertelement <8 x double> poison, double %558, i64 0
+  %560 = shufflevector <8 x double> %559, <8 x double> poison, <8 x i32> zeroinitializer
+  %561 = fmul contract <8 x double> %556, %560
+  %562 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %561)
+  %563 = fmul contract <8 x double> %561, %561
+  %564 = fadd contract <8 x double> %552, %563
+  %565 = fcmp contract ogt <8 x double> %554, %562
+  %566 = select contract <8 x i1> %565, <8 x double> %554, <8 x double> %562
+  %567 = add nuw nsw i64 %553, 1
+  %568 = icmp eq i64 %567, %298
+  br i1 %568, label %544, label %551
+
+569:
+  %570 = phi i64 [ 0, %268 ], [ %594, %569 ]
+  %571 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %570
+  %572 = load <8 x double>, ptr %571, align 64
+  %573 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %570
+  %574 = load <8 x double>, ptr %573, align 64
+  %575 = fadd contract <8 x double> %572, %574
+  %576 = getelementptr inbounds double, ptr %271, i64 %570
+  %577 = load double, ptr %576, align 8
+  %578 = insertelement <8 x double> poison, double %577, i64 0
+  %579 = fadd contract <8 x double> %578, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %580 = shufflevector <8 x double> %579, <8 x double> poison, <8 x i32> zeroinitializer
+  %581 = fcmp contract ogt <8 x double> %575, %580
+  %582 = select contract <8 x i1> %581, <8 x double> %575, <8 x double> %580
+  %583 = getelementptr inbounds double, ptr %272, i64 %570
+  %584 = load double, ptr %583, align 8
+  %585 = insertelement <8 x double> poison, double %584, i64 0
+  %586 = fadd contract <8 x double> %585, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %587 = shufflevector <8 x double> %586, <8 x double> poison, <8 x i32> zeroinitializer
+  %588 = fcmp contract olt <8 x double> %582, %587
+  %589 = select contract <8 x i1> %588, <8 x double> %582, <8 x double> %587
+  %590 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %570
+  %591 = load <8 x double>, ptr %590, align 64
+  %592 = select contract <8 x i1> %273, <8 x double> %589, <8 x double> %591
+  %593 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %570
+  store <8 x double> %592, ptr %593, align 64
+  %594 = add nuw nsw i64 %570, 1
+  %595 = icmp eq i64 %594, %18
+  br i1 %595, label %282, label %569
+
+596:
+  br i1 %300, label %597, label %599
+
+597:
+  %598 = load ptr, ptr %32, align 8
+  br label %605
+
+599:
+  %600 = phi <8 x double> [ zeroinitializer, %596 ], [ %620, %605 ]
+  %601 = phi <8 x double> [ zeroinitializer, %596 ], [ %618, %605 ]
+  %602 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %601)
+  %603 = select contract i1 %548, <8 x double> %602, <8 x double> %600
+  %604 = fsub contract <8 x double> %169, %603
+  br label %637
+
+605:
+  %606 = phi <8 x double> [ zeroinitializer, %597 ], [ %618, %605 ]
+  %607 = phi i64 [ 0, %597 ], [ %621, %605 ]
+  %608 = phi <8 x double> [ zeroinitializer, %597 ], [ %620, %605 ]
+  %609 = getelementptr inbounds <8 x double>, ptr %10, i64 %607
+  %610 = load <8 x double>, ptr %609, align 64
+  %611 = getelementptr inbounds double, ptr %598, i64 %607
+  %612 = load double, ptr %611, align 8
+  %613 = insertelement <8 x double> poison, double %612, i64 0
+  %614 = shufflevector <8 x double> %613, <8 x double> poison, <8 x i32> zeroinitializer
+  %615 = fmul contract <8 x double> %610, %614
+  %616 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %615)
+  %617 = fmul contract <8 x double> %615, %615
+  %618 = fadd contract <8 x double> %606, %617
+  %619 = fcmp contract ogt <8 x double> %608, %616
+  %620 = select contract <8 x i1> %619, <8 x double> %608, <8 x double> %616
+  %621 = add nuw nsw i64 %607, 1
+  %622 = icmp eq i64 %621, %298
+  br i1 %622, label %599, label %605
+
+623:
+  %624 = phi i64 [ %635, %623 ], [ 0, %544 ]
+  %625 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %624
+  %626 = load <8 x double>, ptr %625, align 64
+  %627 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %624
+  %628 = load <8 x double>, ptr %627, align 64
+  %629 = fsub contract <8 x double> %626, %628
+  %630 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %624
+  store <8 x double> %629, ptr %630, align 64
+  %631 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %624
+  %632 = load <8 x double>, ptr %631, align 64
+  %633 = fsub contract <8 x double> %628, %632
+  %634 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %624
+  store <8 x double> %633, ptr %634, align 64
+  %635 = add nuw nsw i64 %624, 1
+  %636 = icmp eq i64 %635, %18
+  br i1 %636, label %596, label %623
+
+637:
+  %638 = phi i64 [ %64, %599 ], [ %722, %721 ]
+  %639 = phi i64 [ 0, %599 ], [ %723, %721 ]
+  %640 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %639
+  %641 = load i64, ptr %640, align 8
+  %642 = icmp slt i64 %641, 0
+  br i1 %642, label %721, label %643
+
+643:
+  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %16)
+  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %17)
+  br i1 %20, label %652, label %644
+
+644:
+  %645 = extractelement <8 x double> %169, i64 %639
+  %646 = fcmp contract ogt double %645, 0.000000e+00
+  %647 = extractelement <8 x double> %604, i64 %639
+  %648 = extractelement <8 x double> %550, i64 %639
+  %649 = fmul contract double %648, 1.000000e-01
+  %650 = fcmp contract ogt double %647, %649
+  %651 = and i1 %646, %650
+  br i1 %651, label %664, label %674
+
+652:
+  %653 = phi i64 [ %662, %652 ], [ 0, %643 ]
+  %654 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %653
+  %655 = load <8 x double>, ptr %654, align 64
+  %656 = extractelement <8 x double> %655, i64 %639
+  %657 = getelementptr inbounds [64 x double], ptr %16, i64 0, i64 %653
+  store double %656, ptr %657, align 8
+  %658 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %653
+  %659 = load <8 x double>, ptr %658, align 64
+  %660 = extractelement <8 x double> %659, i64 %639
+  %661 = getelementptr inbounds [64 x double], ptr %17, i64 0, i64 %653
+  store double %660, ptr %661, align 8
+  %662 = add nuw nsw i64 %653, 1
+  %663 = icmp eq i64 %662, %18
+  br i1 %663, label %644, label %652
+
+664:
+  %665 = load ptr, ptr %44, align 8
+  %666 = call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %665)
+  br i1 %666, label %667, label %674
+
+667:
+  br i1 %45, label %677, label %668
+
+668:
+  %669 = load ptr, ptr %44, align 8
+  %670 = load double, ptr %46, align 8
+  %671 = call fastcc noundef zeroext i1 @_ZL10prove_edgeRK5SceneIdEPKdS4_S4_d(ptr noundef nonnull readonly align 8 dereferenceable(136) %1, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %669, double noundef %670)
+  %672 = load ptr, ptr %30, align 8
+  %673 = getelementptr inbounds i64, ptr %672, i64 %641
+  br i1 %671, label %680, label %700
+
+674:
+  %675 = load ptr, ptr %30, align 8
+  %676 = getelementptr inbounds i64, ptr %675, i64 %641
+  br label %700
+
+677:
+  %678 = load ptr, ptr %30, align 8
+  %679 = getelementptr inbounds i64, ptr %678, i64 %641
+  br label %680
+
+680:
+  %681 = phi ptr [ %673, %668 ], [ %679, %677 ]
+  br i1 %20, label %682, label %700
+
+682:
+  %683 = phi i64 [ %698, %682 ], [ 0, %680 ]
+  %684 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %683
+  %685 = load <8 x double>, ptr %684, align 64
+  %686 = extractelement <8 x double> %685, i64 %639
+  %687 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %683
+  %688 = load <8 x double>, ptr %687, align 64
+  %689 = insertelement <8 x double> %688, double %686, i64 %639
+  store <8 x double> %689, ptr %687, align 64
+  %690 = load ptr, ptr %47, align 8
+  %691 = load i64, ptr %48, align 8
+  %692 = mul nsw i64 %691, %641
+  %693 = load i64, ptr %681, align 8
+  %694 = add nsw i64 %692, %693
+  %695 = mul nsw i64 %694, %18
+  %696 = getelementptr double, ptr %690, i64 %695
+  %697 = getelementptr double, ptr %696, i64 %683
+  store double %686, ptr %697, align 8
+  %698 = add nuw nsw i64 %683, 1
+  %699 = icmp eq i64 %698, %18
+  br i1 %699, label %700, label %682
+
+700:
+  %701 = phi ptr [ %676, %674 ], [ %673, %668 ], [ %681, %680 ], [ %681, %682 ]
+  %702 = phi i1 [ false, %674 ], [ false, %668 ], [ true, %680 ], [ true, %682 ]
+  %703 = zext i1 %702 to i64
+  %704 = load i64, ptr %701, align 8
+  %705 = add nsw i64 %704, %703
+  store i64 %705, ptr %701, align 8
+  %706 = extractelement <8 x i64> %283, i64 %639
+  %707 = icmp eq i64 %706, 0
+  %708 = select i1 %702, i1 %707, i1 false
+  %709 = load i64, ptr %48, align 8
+  %710 = icmp slt i64 %705, %709
+  %711 = select i1 %708, i1 %710, i1 false
+  br i1 %711, label %719, label %712
+
+712:
+  %713 = icmp ne i64 %706, 0
+  %714 = select i1 %702, i1 %713, i1 false
+  %715 = zext i1 %714 to i8
+  %716 = load ptr, ptr %31, align 8
+  %717 = getelementptr inbounds i8, ptr %716, i64 %641
+  store i8 %715, ptr %717, align 1
+  store i64 -1, ptr %640, align 8
+  %718 = add nsw i64 %638, -1
+  br label %719
+
+719:
+  %720 = phi i64 [ %718, %712 ], [ %638, %700 ]
+  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %17)
+  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %16)
+  br label %721
+
+721:
+  %722 = phi i64 [ %638, %637 ], [ %720, %719 ]
+  %723 = add nuw nsw i64 %639, 1
+  %724 = icmp eq i64 %723, 8
+  br i1 %724, label %55, label %637
+
+725:
+  call void @llvm.lifetime.end.p0(i64 101440, ptr nonnull %15)
+  call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %14)
+  call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %13)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %12)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %11)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %10)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %9)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %8)
+  ret void
 }
 
 define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef readonly %1, i64 noundef %2, ptr nocapture noundef %3, i64 noundef %4, ptr nocapture noundef %5) {
@@ -3166,10 +4565,10 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
   %31 = alloca [16 x %struct.SpanPiece], align 16
   call void @llvm.lifetime.start.p0(i64 65536, ptr nonnull %30)
   %32 = icmp sgt i64 %2, 0
-  br i1 %32, label %56, label %1821
+  br i1 %32, label %56, label %1817
 
 33:
-  br i1 %32, label %34, label %1821
+  br i1 %32, label %34, label %1817
 
 34:
   %35 = getelementptr inbounds i8, ptr %1, i64 8
@@ -3204,9 +4603,9 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
   br i1 %60, label %33, label %56
 
 61:
-  %62 = phi i64 [ 0, %34 ], [ %1817, %1816 ]
-  %63 = phi i64 [ 0, %34 ], [ %108, %1816 ]
-  %64 = phi i64 [ 0, %34 ], [ %1767, %1816 ]
+  %62 = phi i64 [ 0, %34 ], [ %1813, %1812 ]
+  %63 = phi i64 [ 0, %34 ], [ %108, %1812 ]
+  %64 = phi i64 [ 0, %34 ], [ %1763, %1812 ]
   call void @llvm.lifetime.start.p0(i64 256, ptr nonnull %31)
   %65 = icmp sgt i64 %62, 15
   %66 = add nsw i64 %63, 16
@@ -3263,16 +4662,16 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
 
 103:
   %104 = icmp eq i64 %72, 0
-  br i1 %104, label %105, label %1774
+  br i1 %104, label %105, label %1770
 
 105:
   call void @llvm.lifetime.end.p0(i64 256, ptr nonnull %31)
-  br label %1821
+  br label %1817
 
 106:
-  %107 = phi i64 [ %72, %1774 ], [ 16, %88 ]
-  %108 = phi i64 [ %71, %1774 ], [ %92, %88 ]
-  %109 = phi i64 [ 0, %1774 ], [ %93, %88 ]
+  %107 = phi i64 [ %72, %1770 ], [ 16, %88 ]
+  %108 = phi i64 [ %71, %1770 ], [ %92, %88 ]
+  %109 = phi i64 [ 0, %1770 ], [ %93, %88 ]
   %110 = shl nsw i64 -1, %107
   %111 = xor i64 %110, -1
   %112 = load i64, ptr %0, align 8
@@ -3403,7 +4802,7 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
   %190 = fmul contract <16 x float> %115, <float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00>
   %191 = fmul contract <16 x float> %116, <float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00>
   %192 = fdiv contract <16 x float> %117, <float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00>
-  br label %507
+  br label %504
 
 193:
   %194 = phi i64 [ 0, %183 ], [ %292, %287 ]
@@ -3560,1730 +4959,1722 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
 
 294:
   call void @llvm.lifetime.start.p0(i64 13056, ptr nonnull %27)
-  br label %295
+  %295 = load ptr, ptr %39, align 8
+  br label %296
 
-295:
-  %296 = phi i64 [ 0, %294 ], [ %303, %295 ]
-  %297 = and i64 %296, 3
-  %298 = icmp eq i64 %297, 0
-  %299 = uitofp i1 %298 to float
-  %300 = insertelement <16 x float> poison, float %299, i64 0
-  %301 = shufflevector <16 x float> %300, <16 x float> poison, <16 x i32> zeroinitializer
-  %302 = getelementptr inbounds [9 x <16 x float>], ptr %27, i64 0, i64 %296
-  store <16 x float> %301, ptr %302, align 64
-  %303 = add nuw nsw i64 %296, 1
-  %304 = icmp eq i64 %303, 9
-  br i1 %304, label %309, label %295
-
-305:
-  br i1 %182, label %307, label %306
+296:
+  %297 = phi i64 [ 0, %294 ], [ %304, %296 ]
+  %298 = and i64 %297, 3
+  %299 = icmp eq i64 %298, 0
+  %300 = uitofp i1 %299 to float
+  %301 = insertelement <16 x float> poison, float %300, i64 0
+  %302 = shufflevector <16 x float> %301, <16 x float> poison, <16 x i32> zeroinitializer
+  %303 = getelementptr inbounds [9 x <16 x float>], ptr %27, i64 0, i64 %297
+  store <16 x float> %302, ptr %303, align 64
+  %304 = add nuw nsw i64 %297, 1
+  %305 = icmp eq i64 %304, 9
+  br i1 %305, label %308, label %296
 
 306:
-  call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %28)
-  call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %29)
-  br label %579
+  br i1 %182, label %313, label %307
 
 307:
-  %308 = load ptr, ptr %39, align 8
-  br label %314
-
-309:
-  %310 = phi i64 [ %312, %309 ], [ 0, %295 ]
-  %311 = getelementptr inbounds [3 x <16 x float>], ptr %40, i64 0, i64 %310
-  store <16 x float> zeroinitializer, ptr %311, align 64
-  %312 = add nuw nsw i64 %310, 1
-  %313 = icmp eq i64 %312, 3
-  br i1 %313, label %305, label %309
-
-314:
-  %315 = phi i64 [ 0, %307 ], [ %318, %502 ]
-  %316 = getelementptr inbounds %struct.Joint, ptr %308, i64 %315
-  %317 = getelementptr inbounds %struct.Frame, ptr %27, i64 %315
-  %318 = add nuw nsw i64 %315, 1
-  %319 = getelementptr inbounds <16 x float>, ptr %16, i64 %315
-  %320 = load <16 x float>, ptr %319, align 64
-  %321 = getelementptr inbounds i8, ptr %316, i64 36
-  %322 = load float, ptr %321, align 4
-  %323 = getelementptr inbounds i8, ptr %316, i64 40
-  %324 = load float, ptr %323, align 4
-  %325 = getelementptr inbounds i8, ptr %316, i64 44
-  %326 = load float, ptr %325, align 4
-  %327 = getelementptr inbounds i8, ptr %317, i64 576
-  %328 = load <16 x float>, ptr %327, align 64
-  %329 = load <16 x float>, ptr %317, align 64
-  %330 = insertelement <16 x float> poison, float %322, i64 0
-  %331 = shufflevector <16 x float> %330, <16 x float> poison, <16 x i32> zeroinitializer
-  %332 = fmul contract <16 x float> %331, %329
-  %333 = getelementptr inbounds i8, ptr %317, i64 64
-  %334 = load <16 x float>, ptr %333, align 64
-  %335 = insertelement <16 x float> poison, float %324, i64 0
-  %336 = shufflevector <16 x float> %335, <16 x float> poison, <16 x i32> zeroinitializer
-  %337 = fmul contract <16 x float> %336, %334
-  %338 = getelementptr inbounds i8, ptr %317, i64 128
-  %339 = load <16 x float>, ptr %338, align 64
-  %340 = insertelement <16 x float> poison, float %326, i64 0
-  %341 = shufflevector <16 x float> %340, <16 x float> poison, <16 x i32> zeroinitializer
-  %342 = fmul contract <16 x float> %341, %339
-  %343 = getelementptr inbounds i8, ptr %317, i64 640
-  %344 = load <16 x float>, ptr %343, align 64
-  %345 = getelementptr inbounds i8, ptr %317, i64 192
-  %346 = load <16 x float>, ptr %345, align 64
-  %347 = fmul contract <16 x float> %331, %346
-  %348 = getelementptr inbounds i8, ptr %317, i64 256
-  %349 = load <16 x float>, ptr %348, align 64
-  %350 = fmul contract <16 x float> %336, %349
-  %351 = getelementptr inbounds i8, ptr %317, i64 320
-  %352 = load <16 x float>, ptr %351, align 64
-  %353 = fmul contract <16 x float> %341, %352
-  %354 = getelementptr inbounds i8, ptr %317, i64 704
-  %355 = load <16 x float>, ptr %354, align 64
-  %356 = getelementptr inbounds i8, ptr %317, i64 384
-  %357 = load <16 x float>, ptr %356, align 64
-  %358 = fmul contract <16 x float> %331, %357
-  %359 = getelementptr inbounds i8, ptr %317, i64 448
-  %360 = load <16 x float>, ptr %359, align 64
-  %361 = fmul contract <16 x float> %336, %360
-  %362 = getelementptr inbounds i8, ptr %317, i64 512
-  %363 = load <16 x float>, ptr %362, align 64
-  %364 = fmul contract <16 x float> %341, %363
-  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %15)
-  br label %365
-
-365:
-  %366 = phi i64 [ 0, %314 ], [ %394, %393 ]
-  %367 = mul nuw nsw i64 %366, 3
-  %368 = getelementptr inbounds [9 x <16 x float>], ptr %317, i64 0, i64 %367
-  %369 = load <16 x float>, ptr %368, align 64
-  %370 = add nuw nsw i64 %367, 1
-  %371 = getelementptr inbounds [9 x <16 x float>], ptr %317, i64 0, i64 %370
-  %372 = load <16 x float>, ptr %371, align 64
-  %373 = add nuw nsw i64 %367, 2
-  %374 = getelementptr inbounds [9 x <16 x float>], ptr %317, i64 0, i64 %373
-  %375 = load <16 x float>, ptr %374, align 64
-  br label %396
-
-376:
-  %377 = getelementptr inbounds %struct.Frame, ptr %27, i64 %318
-  %378 = fadd contract <16 x float> %328, %332
-  %379 = fadd contract <16 x float> %378, %337
-  %380 = fadd contract <16 x float> %379, %342
-  %381 = fadd contract <16 x float> %344, %347
-  %382 = fadd contract <16 x float> %381, %350
-  %383 = fadd contract <16 x float> %382, %353
-  %384 = fadd contract <16 x float> %355, %358
-  %385 = fadd contract <16 x float> %384, %361
-  %386 = fadd contract <16 x float> %385, %364
-  %387 = getelementptr inbounds i8, ptr %377, i64 576
-  store <16 x float> %380, ptr %387, align 64
-  %388 = getelementptr inbounds i8, ptr %377, i64 640
-  store <16 x float> %383, ptr %388, align 64
-  %389 = getelementptr inbounds i8, ptr %377, i64 704
-  store <16 x float> %386, ptr %389, align 64
-  %390 = getelementptr inbounds i8, ptr %316, i64 48
-  %391 = load float, ptr %390, align 4
-  %392 = fcmp contract une float %391, 0.000000e+00
-  br i1 %392, label %421, label %440
-
-393:
-  %394 = add nuw nsw i64 %366, 1
-  %395 = icmp eq i64 %394, 3
-  br i1 %395, label %376, label %365
-
-396:
-  %397 = phi i64 [ 0, %365 ], [ %419, %396 ]
-  %398 = getelementptr inbounds [9 x float], ptr %316, i64 0, i64 %397
-  %399 = load float, ptr %398, align 4
-  %400 = insertelement <16 x float> poison, float %399, i64 0
-  %401 = shufflevector <16 x float> %400, <16 x float> poison, <16 x i32> zeroinitializer
-  %402 = fmul contract <16 x float> %369, %401
-  %403 = add nuw nsw i64 %397, 3
-  %404 = getelementptr inbounds [9 x float], ptr %316, i64 0, i64 %403
-  %405 = load float, ptr %404, align 4
-  %406 = insertelement <16 x float> poison, float %405, i64 0
-  %407 = shufflevector <16 x float> %406, <16 x float> poison, <16 x i32> zeroinitializer
-  %408 = fmul contract <16 x float> %372, %407
-  %409 = fadd contract <16 x float> %402, %408
-  %410 = add nuw nsw i64 %397, 6
-  %411 = getelementptr inbounds [9 x float], ptr %316, i64 0, i64 %410
-  %412 = load float, ptr %411, align 4
-  %413 = insertelement <16 x float> poison, float %412, i64 0
-  %414 = shufflevector <16 x float> %413, <16 x float> poison, <16 x i32> zeroinitializer
-  %415 = fmul contract <16 x float> %375, %414
-  %416 = fadd contract <16 x float> %409, %415
-  %417 = add nuw nsw i64 %397, %367
-  %418 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %417
-  store <16 x float> %416, ptr %418, align 64
-  %419 = add nuw nsw i64 %397, 1
-  %420 = icmp eq i64 %419, 3
-  br i1 %420, label %393, label %396
-
-421:
-  %422 = phi i64 [ %426, %421 ], [ 0, %376 ]
-  %423 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %422
-  %424 = load <16 x float>, ptr %423, align 64
-  %425 = getelementptr inbounds [9 x <16 x float>], ptr %377, i64 0, i64 %422
-  store <16 x float> %424, ptr %425, align 64
-  %426 = add nuw nsw i64 %422, 1
-  %427 = icmp eq i64 %426, 9
-  br i1 %427, label %428, label %421
-
-428:
-  %429 = phi i64 [ %438, %428 ], [ 0, %421 ]
-  %430 = mul nuw nsw i64 %429, 3
-  %431 = add nuw nsw i64 %430, 2
-  %432 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %431
-  %433 = load <16 x float>, ptr %432, align 64
-  %434 = fmul contract <16 x float> %320, %433
-  %435 = getelementptr inbounds [3 x <16 x float>], ptr %387, i64 0, i64 %429
-  %436 = load <16 x float>, ptr %435, align 64
-  %437 = fadd contract <16 x float> %436, %434
-  store <16 x float> %437, ptr %435, align 64
-  %438 = add nuw nsw i64 %429, 1
-  %439 = icmp eq i64 %438, 3
-  br i1 %439, label %502, label %428
-
-440:
-  %441 = fmul contract <16 x float> %320, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
-  %442 = fadd contract <16 x float> %441, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %443 = fadd contract <16 x float> %442, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %444 = fmul contract <16 x float> %443, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
-  %445 = fsub contract <16 x float> %320, %444
-  %446 = fmul contract <16 x float> %443, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
-  %447 = fsub contract <16 x float> %445, %446
-  %448 = fmul contract <16 x float> %443, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
-  %449 = fsub contract <16 x float> %447, %448
-  %450 = fmul contract <16 x float> %443, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %451 = fadd contract <16 x float> %450, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
-  %452 = fadd contract <16 x float> %451, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
-  %453 = fsub contract <16 x float> %450, %452
-  %454 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %453)
-  %455 = fmul contract <16 x float> %454, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
-  %456 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %455
-  %457 = fmul contract <16 x float> %449, %449
-  %458 = fmul contract <16 x float> %449, %457
-  %459 = fmul contract <16 x float> %457, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
-  %460 = fadd contract <16 x float> %459, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
-  %461 = fmul contract <16 x float> %457, %460
-  %462 = fadd contract <16 x float> %461, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
-  %463 = fmul contract <16 x float> %457, %462
-  %464 = fadd contract <16 x float> %463, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
-  %465 = fmul contract <16 x float> %458, %464
-  %466 = fadd contract <16 x float> %449, %465
-  %467 = fmul contract <16 x float> %456, %466
-  %468 = fmul contract <16 x float> %457, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %469 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %468
-  %470 = fmul contract <16 x float> %457, %457
-  %471 = fmul contract <16 x float> %457, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
-  %472 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %471
-  %473 = fmul contract <16 x float> %457, %472
-  %474 = fadd contract <16 x float> %473, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
-  %475 = fmul contract <16 x float> %457, %474
-  %476 = fadd contract <16 x float> %475, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
-  %477 = fmul contract <16 x float> %470, %476
-  %478 = fadd contract <16 x float> %469, %477
-  %479 = fmul contract <16 x float> %456, %478
-  br label %480
-
-480:
-  %481 = phi i64 [ 0, %440 ], [ %500, %480 ]
-  %482 = mul nuw nsw i64 %481, 3
-  %483 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %482
-  %484 = load <16 x float>, ptr %483, align 64
-  %485 = fmul contract <16 x float> %479, %484
-  %486 = add nuw nsw i64 %482, 1
-  %487 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %486
-  %488 = load <16 x float>, ptr %487, align 64
-  %489 = fmul contract <16 x float> %467, %488
-  %490 = fadd contract <16 x float> %485, %489
-  %491 = getelementptr inbounds [9 x <16 x float>], ptr %377, i64 0, i64 %482
-  store <16 x float> %490, ptr %491, align 64
-  %492 = fmul contract <16 x float> %479, %488
-  %493 = fmul contract <16 x float> %467, %484
-  %494 = fsub contract <16 x float> %492, %493
-  %495 = getelementptr inbounds [9 x <16 x float>], ptr %377, i64 0, i64 %486
-  store <16 x float> %494, ptr %495, align 64
-  %496 = add nuw nsw i64 %482, 2
-  %497 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %496
-  %498 = load <16 x float>, ptr %497, align 64
-  %499 = getelementptr inbounds [9 x <16 x float>], ptr %377, i64 0, i64 %496
-  store <16 x float> %498, ptr %499, align 64
-  %500 = add nuw nsw i64 %481, 1
-  %501 = icmp eq i64 %500, 3
-  br i1 %501, label %502, label %480
-
-502:
-  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %15)
-  %503 = icmp eq i64 %318, %112
-  br i1 %503, label %504, label %314
-
-504:
   call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %28)
   call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %29)
-  br i1 %182, label %505, label %579
+  br label %576
 
-505:
-  %506 = load ptr, ptr %39, align 8
-  br label %597
+308:
+  %309 = phi i64 [ %311, %308 ], [ 0, %296 ]
+  %310 = getelementptr inbounds [3 x <16 x float>], ptr %40, i64 0, i64 %309
+  store <16 x float> zeroinitializer, ptr %310, align 64
+  %311 = add nuw nsw i64 %309, 1
+  %312 = icmp eq i64 %311, 3
+  br i1 %312, label %306, label %308
 
-507:
-  %508 = phi i64 [ 0, %189 ], [ %577, %507 ]
-  %509 = getelementptr inbounds [16 x <16 x float>], ptr %23, i64 0, i64 %508
+313:
+  %314 = phi i64 [ %317, %501 ], [ 0, %306 ]
+  %315 = getelementptr inbounds %struct.Joint, ptr %295, i64 %314
+  %316 = getelementptr inbounds %struct.Frame, ptr %27, i64 %314
+  %317 = add nuw nsw i64 %314, 1
+  %318 = getelementptr inbounds <16 x float>, ptr %16, i64 %314
+  %319 = load <16 x float>, ptr %318, align 64
+  %320 = getelementptr inbounds i8, ptr %315, i64 36
+  %321 = load float, ptr %320, align 4
+  %322 = getelementptr inbounds i8, ptr %315, i64 40
+  %323 = load float, ptr %322, align 4
+  %324 = getelementptr inbounds i8, ptr %315, i64 44
+  %325 = load float, ptr %324, align 4
+  %326 = getelementptr inbounds i8, ptr %316, i64 576
+  %327 = load <16 x float>, ptr %326, align 64
+  %328 = load <16 x float>, ptr %316, align 64
+  %329 = insertelement <16 x float> poison, float %321, i64 0
+  %330 = shufflevector <16 x float> %329, <16 x float> poison, <16 x i32> zeroinitializer
+  %331 = fmul contract <16 x float> %330, %328
+  %332 = getelementptr inbounds i8, ptr %316, i64 64
+  %333 = load <16 x float>, ptr %332, align 64
+  %334 = insertelement <16 x float> poison, float %323, i64 0
+  %335 = shufflevector <16 x float> %334, <16 x float> poison, <16 x i32> zeroinitializer
+  %336 = fmul contract <16 x float> %335, %333
+  %337 = getelementptr inbounds i8, ptr %316, i64 128
+  %338 = load <16 x float>, ptr %337, align 64
+  %339 = insertelement <16 x float> poison, float %325, i64 0
+  %340 = shufflevector <16 x float> %339, <16 x float> poison, <16 x i32> zeroinitializer
+  %341 = fmul contract <16 x float> %340, %338
+  %342 = getelementptr inbounds i8, ptr %316, i64 640
+  %343 = load <16 x float>, ptr %342, align 64
+  %344 = getelementptr inbounds i8, ptr %316, i64 192
+  %345 = load <16 x float>, ptr %344, align 64
+  %346 = fmul contract <16 x float> %330, %345
+  %347 = getelementptr inbounds i8, ptr %316, i64 256
+  %348 = load <16 x float>, ptr %347, align 64
+  %349 = fmul contract <16 x float> %335, %348
+  %350 = getelementptr inbounds i8, ptr %316, i64 320
+  %351 = load <16 x float>, ptr %350, align 64
+  %352 = fmul contract <16 x float> %340, %351
+  %353 = getelementptr inbounds i8, ptr %316, i64 704
+  %354 = load <16 x float>, ptr %353, align 64
+  %355 = getelementptr inbounds i8, ptr %316, i64 384
+  %356 = load <16 x float>, ptr %355, align 64
+  %357 = fmul contract <16 x float> %330, %356
+  %358 = getelementptr inbounds i8, ptr %316, i64 448
+  %359 = load <16 x float>, ptr %358, align 64
+  %360 = fmul contract <16 x float> %335, %359
+  %361 = getelementptr inbounds i8, ptr %316, i64 512
+  %362 = load <16 x float>, ptr %361, align 64
+  %363 = fmul contract <16 x float> %340, %362
+  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %15)
+  br label %364
+
+364:
+  %365 = phi i64 [ 0, %313 ], [ %393, %392 ]
+  %366 = mul nuw nsw i64 %365, 3
+  %367 = getelementptr inbounds [9 x <16 x float>], ptr %316, i64 0, i64 %366
+  %368 = load <16 x float>, ptr %367, align 64
+  %369 = add nuw nsw i64 %366, 1
+  %370 = getelementptr inbounds [9 x <16 x float>], ptr %316, i64 0, i64 %369
+  %371 = load <16 x float>, ptr %370, align 64
+  %372 = add nuw nsw i64 %366, 2
+  %373 = getelementptr inbounds [9 x <16 x float>], ptr %316, i64 0, i64 %372
+  %374 = load <16 x float>, ptr %373, align 64
+  br label %395
+
+375:
+  %376 = getelementptr inbounds %struct.Frame, ptr %27, i64 %317
+  %377 = fadd contract <16 x float> %327, %331
+  %378 = fadd contract <16 x float> %377, %336
+  %379 = fadd contract <16 x float> %378, %341
+  %380 = fadd contract <16 x float> %343, %346
+  %381 = fadd contract <16 x float> %380, %349
+  %382 = fadd contract <16 x float> %381, %352
+  %383 = fadd contract <16 x float> %354, %357
+  %384 = fadd contract <16 x float> %383, %360
+  %385 = fadd contract <16 x float> %384, %363
+  %386 = getelementptr inbounds i8, ptr %376, i64 576
+  store <16 x float> %379, ptr %386, align 64
+  %387 = getelementptr inbounds i8, ptr %376, i64 640
+  store <16 x float> %382, ptr %387, align 64
+  %388 = getelementptr inbounds i8, ptr %376, i64 704
+  store <16 x float> %385, ptr %388, align 64
+  %389 = getelementptr inbounds i8, ptr %315, i64 48
+  %390 = load float, ptr %389, align 4
+  %391 = fcmp contract une float %390, 0.000000e+00
+  br i1 %391, label %420, label %439
+
+392:
+  %393 = add nuw nsw i64 %365, 1
+  %394 = icmp eq i64 %393, 3
+  br i1 %394, label %375, label %364
+
+395:
+  %396 = phi i64 [ 0, %364 ], [ %418, %395 ]
+  %397 = getelementptr inbounds [9 x float], ptr %315, i64 0, i64 %396
+  %398 = load float, ptr %397, align 4
+  %399 = insertelement <16 x float> poison, float %398, i64 0
+  %400 = shufflevector <16 x float> %399, <16 x float> poison, <16 x i32> zeroinitializer
+  %401 = fmul contract <16 x float> %368, %400
+  %402 = add nuw nsw i64 %396, 3
+  %403 = getelementptr inbounds [9 x float], ptr %315, i64 0, i64 %402
+  %404 = load float, ptr %403, align 4
+  %405 = insertelement <16 x float> poison, float %404, i64 0
+  %406 = shufflevector <16 x float> %405, <16 x float> poison, <16 x i32> zeroinitializer
+  %407 = fmul contract <16 x float> %371, %406
+  %408 = fadd contract <16 x float> %401, %407
+  %409 = add nuw nsw i64 %396, 6
+  %410 = getelementptr inbounds [9 x float], ptr %315, i64 0, i64 %409
+  %411 = load float, ptr %410, align 4
+  %412 = insertelement <16 x float> poison, float %411, i64 0
+  %413 = shufflevector <16 x float> %412, <16 x float> poison, <16 x i32> zeroinitializer
+  %414 = fmul contract <16 x float> %374, %413
+  %415 = fadd contract <16 x float> %408, %414
+  %416 = add nuw nsw i64 %396, %366
+  %417 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %416
+  store <16 x float> %415, ptr %417, align 64
+  %418 = add nuw nsw i64 %396, 1
+  %419 = icmp eq i64 %418, 3
+  br i1 %419, label %392, label %395
+
+420:
+  %421 = phi i64 [ %425, %420 ], [ 0, %375 ]
+  %422 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %421
+  %423 = load <16 x float>, ptr %422, align 64
+  %424 = getelementptr inbounds [9 x <16 x float>], ptr %376, i64 0, i64 %421
+  store <16 x float> %423, ptr %424, align 64
+  %425 = add nuw nsw i64 %421, 1
+  %426 = icmp eq i64 %425, 9
+  br i1 %426, label %427, label %420
+
+427:
+  %428 = phi i64 [ %437, %427 ], [ 0, %420 ]
+  %429 = mul nuw nsw i64 %428, 3
+  %430 = add nuw nsw i64 %429, 2
+  %431 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %430
+  %432 = load <16 x float>, ptr %431, align 64
+  %433 = fmul contract <16 x float> %319, %432
+  %434 = getelementptr inbounds [3 x <16 x float>], ptr %386, i64 0, i64 %428
+  %435 = load <16 x float>, ptr %434, align 64
+  %436 = fadd contract <16 x float> %435, %433
+  store <16 x float> %436, ptr %434, align 64
+  %437 = add nuw nsw i64 %428, 1
+  %438 = icmp eq i64 %437, 3
+  br i1 %438, label %501, label %427
+
+439:
+  %440 = fmul contract <16 x float> %319, <float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000, float 0x3FD45F3060000000>
+  %441 = fadd contract <16 x float> %440, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %442 = fadd contract <16 x float> %441, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %443 = fmul contract <16 x float> %442, <float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000, float 0x4009200000000000>
+  %444 = fsub contract <16 x float> %319, %443
+  %445 = fmul contract <16 x float> %442, <float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000, float 0x3F4FB40000000000>
+  %446 = fsub contract <16 x float> %444, %445
+  %447 = fmul contract <16 x float> %442, <float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000, float 0x3E84442D20000000>
+  %448 = fsub contract <16 x float> %446, %447
+  %449 = fmul contract <16 x float> %442, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %450 = fadd contract <16 x float> %449, <float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000, float 0x4168000000000000>
+  %451 = fadd contract <16 x float> %450, <float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000, float 0xC168000000000000>
+  %452 = fsub contract <16 x float> %449, %451
+  %453 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %452)
+  %454 = fmul contract <16 x float> %453, <float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00, float 4.000000e+00>
+  %455 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %454
+  %456 = fmul contract <16 x float> %448, %448
+  %457 = fmul contract <16 x float> %448, %456
+  %458 = fmul contract <16 x float> %456, <float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000, float 0x3EC5CF7520000000>
+  %459 = fadd contract <16 x float> %458, <float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000, float 0xBF29943F20000000>
+  %460 = fmul contract <16 x float> %456, %459
+  %461 = fadd contract <16 x float> %460, <float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000, float 0x3F811073C0000000>
+  %462 = fmul contract <16 x float> %456, %461
+  %463 = fadd contract <16 x float> %462, <float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000, float 0xBFC5555460000000>
+  %464 = fmul contract <16 x float> %457, %463
+  %465 = fadd contract <16 x float> %448, %464
+  %466 = fmul contract <16 x float> %455, %465
+  %467 = fmul contract <16 x float> %456, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %468 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %467
+  %469 = fmul contract <16 x float> %456, %456
+  %470 = fmul contract <16 x float> %456, <float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000, float 0x3E9172C420000000>
+  %471 = fsub contract <16 x float> <float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000, float 0x3EF99EB9C0000000>, %470
+  %472 = fmul contract <16 x float> %456, %471
+  %473 = fadd contract <16 x float> %472, <float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000, float 0xBF56C0C340000000>
+  %474 = fmul contract <16 x float> %456, %473
+  %475 = fadd contract <16 x float> %474, <float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000, float 0x3FA55554A0000000>
+  %476 = fmul contract <16 x float> %469, %475
+  %477 = fadd contract <16 x float> %468, %476
+  %478 = fmul contract <16 x float> %455, %477
+  br label %479
+
+479:
+  %480 = phi i64 [ 0, %439 ], [ %499, %479 ]
+  %481 = mul nuw nsw i64 %480, 3
+  %482 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %481
+  %483 = load <16 x float>, ptr %482, align 64
+  %484 = fmul contract <16 x float> %478, %483
+  %485 = add nuw nsw i64 %481, 1
+  %486 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %485
+  %487 = load <16 x float>, ptr %486, align 64
+  %488 = fmul contract <16 x float> %466, %487
+  %489 = fadd contract <16 x float> %484, %488
+  %490 = getelementptr inbounds [9 x <16 x float>], ptr %376, i64 0, i64 %481
+  store <16 x float> %489, ptr %490, align 64
+  %491 = fmul contract <16 x float> %478, %487
+  %492 = fmul contract <16 x float> %466, %483
+  %493 = fsub contract <16 x float> %491, %492
+  %494 = getelementptr inbounds [9 x <16 x float>], ptr %376, i64 0, i64 %485
+  store <16 x float> %493, ptr %494, align 64
+  %495 = add nuw nsw i64 %481, 2
+  %496 = getelementptr inbounds [9 x <16 x float>], ptr %15, i64 0, i64 %495
+  %497 = load <16 x float>, ptr %496, align 64
+  %498 = getelementptr inbounds [9 x <16 x float>], ptr %376, i64 0, i64 %495
+  store <16 x float> %497, ptr %498, align 64
+  %499 = add nuw nsw i64 %480, 1
+  %500 = icmp eq i64 %499, 3
+  br i1 %500, label %501, label %479
+
+501:
+  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %15)
+  %502 = icmp eq i64 %317, %112
+  br i1 %502, label %503, label %313
+
+503:
+  call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %28)
+  call void @llvm.lifetime.start.p0(i64 18496, ptr nonnull %29)
+  br i1 %182, label %593, label %576
+
+504:
+  %505 = phi i64 [ 0, %189 ], [ %574, %504 ]
+  %506 = getelementptr inbounds [16 x <16 x float>], ptr %23, i64 0, i64 %505
+  %507 = load <16 x float>, ptr %506, align 64
+  %508 = fmul contract <16 x float> %507, <float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00>
+  %509 = getelementptr inbounds [16 x <16 x float>], ptr %22, i64 0, i64 %505
   %510 = load <16 x float>, ptr %509, align 64
-  %511 = fmul contract <16 x float> %510, <float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00, float 3.000000e+00>
-  %512 = getelementptr inbounds [16 x <16 x float>], ptr %22, i64 0, i64 %508
-  %513 = load <16 x float>, ptr %512, align 64
-  %514 = fmul contract <16 x float> %513, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
-  %515 = fsub contract <16 x float> %511, %514
-  %516 = getelementptr inbounds [16 x <16 x float>], ptr %24, i64 0, i64 %508
-  %517 = load <16 x float>, ptr %516, align 64
-  %518 = fsub contract <16 x float> %515, %517
-  %519 = fadd contract <16 x float> %513, %517
-  %520 = fmul contract <16 x float> %510, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
-  %521 = fsub contract <16 x float> %519, %520
-  %522 = fmul contract <16 x float> %115, %521
-  %523 = fadd contract <16 x float> %518, %522
-  %524 = fmul contract <16 x float> %115, %523
-  %525 = fadd contract <16 x float> %513, %524
-  %526 = fmul contract <16 x float> %115, %525
-  %527 = fmul contract <16 x float> %116, %521
-  %528 = fadd contract <16 x float> %518, %527
-  %529 = fmul contract <16 x float> %116, %528
-  %530 = fadd contract <16 x float> %513, %529
-  %531 = fmul contract <16 x float> %116, %530
-  %532 = fmul contract <16 x float> %518, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
-  %533 = fmul contract <16 x float> %190, %521
-  %534 = fadd contract <16 x float> %532, %533
-  %535 = fmul contract <16 x float> %115, %534
-  %536 = fadd contract <16 x float> %513, %535
-  %537 = fmul contract <16 x float> %191, %521
-  %538 = fadd contract <16 x float> %532, %537
-  %539 = fmul contract <16 x float> %116, %538
-  %540 = fadd contract <16 x float> %513, %539
-  %541 = fadd contract <16 x float> %518, %533
-  %542 = fmul contract <16 x float> %117, %541
-  %543 = fadd contract <16 x float> %542, %536
-  %544 = fmul contract <16 x float> %192, %536
-  %545 = fadd contract <16 x float> %526, %544
-  %546 = fmul contract <16 x float> %192, %540
-  %547 = fsub contract <16 x float> %531, %546
-  %548 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %536)
-  %549 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %543)
+  %511 = fmul contract <16 x float> %510, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
+  %512 = fsub contract <16 x float> %508, %511
+  %513 = getelementptr inbounds [16 x <16 x float>], ptr %24, i64 0, i64 %505
+  %514 = load <16 x float>, ptr %513, align 64
+  %515 = fsub contract <16 x float> %512, %514
+  %516 = fadd contract <16 x float> %510, %514
+  %517 = fmul contract <16 x float> %507, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
+  %518 = fsub contract <16 x float> %516, %517
+  %519 = fmul contract <16 x float> %115, %518
+  %520 = fadd contract <16 x float> %515, %519
+  %521 = fmul contract <16 x float> %115, %520
+  %522 = fadd contract <16 x float> %510, %521
+  %523 = fmul contract <16 x float> %115, %522
+  %524 = fmul contract <16 x float> %116, %518
+  %525 = fadd contract <16 x float> %515, %524
+  %526 = fmul contract <16 x float> %116, %525
+  %527 = fadd contract <16 x float> %510, %526
+  %528 = fmul contract <16 x float> %116, %527
+  %529 = fmul contract <16 x float> %515, <float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00, float 2.000000e+00>
+  %530 = fmul contract <16 x float> %190, %518
+  %531 = fadd contract <16 x float> %529, %530
+  %532 = fmul contract <16 x float> %115, %531
+  %533 = fadd contract <16 x float> %510, %532
+  %534 = fmul contract <16 x float> %191, %518
+  %535 = fadd contract <16 x float> %529, %534
+  %536 = fmul contract <16 x float> %116, %535
+  %537 = fadd contract <16 x float> %510, %536
+  %538 = fadd contract <16 x float> %515, %530
+  %539 = fmul contract <16 x float> %117, %538
+  %540 = fadd contract <16 x float> %539, %533
+  %541 = fmul contract <16 x float> %192, %533
+  %542 = fadd contract <16 x float> %523, %541
+  %543 = fmul contract <16 x float> %192, %537
+  %544 = fsub contract <16 x float> %528, %543
+  %545 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %533)
+  %546 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %540)
+  %547 = fcmp contract ogt <16 x float> %545, %546
+  %548 = select contract <16 x i1> %547, <16 x float> %545, <16 x float> %546
+  %549 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %537)
   %550 = fcmp contract ogt <16 x float> %548, %549
   %551 = select contract <16 x i1> %550, <16 x float> %548, <16 x float> %549
-  %552 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %540)
-  %553 = fcmp contract ogt <16 x float> %551, %552
-  %554 = select contract <16 x i1> %553, <16 x float> %551, <16 x float> %552
-  %555 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %508
-  store <16 x float> %554, ptr %555, align 64
-  %556 = fcmp contract olt <16 x float> %526, %545
-  %557 = select contract <16 x i1> %556, <16 x float> %526, <16 x float> %545
-  %558 = fcmp contract olt <16 x float> %547, %531
-  %559 = select contract <16 x i1> %558, <16 x float> %547, <16 x float> %531
-  %560 = fcmp contract olt <16 x float> %557, %559
-  %561 = select contract <16 x i1> %560, <16 x float> %557, <16 x float> %559
-  %562 = fcmp contract ogt <16 x float> %526, %545
-  %563 = select contract <16 x i1> %562, <16 x float> %526, <16 x float> %545
-  %564 = fcmp contract ogt <16 x float> %547, %531
-  %565 = select contract <16 x i1> %564, <16 x float> %547, <16 x float> %531
-  %566 = fcmp contract ogt <16 x float> %563, %565
-  %567 = select contract <16 x i1> %566, <16 x float> %563, <16 x float> %565
-  %568 = getelementptr inbounds [16 x <16 x float>], ptr %21, i64 0, i64 %508
-  %569 = load <16 x float>, ptr %568, align 64
-  %570 = fadd contract <16 x float> %561, %567
-  %571 = fmul contract <16 x float> %570, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %572 = fadd contract <16 x float> %569, %571
-  %573 = getelementptr inbounds [16 x <16 x float>], ptr %16, i64 0, i64 %508
+  %552 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %505
+  store <16 x float> %551, ptr %552, align 64
+  %553 = fcmp contract olt <16 x float> %523, %542
+  %554 = select contract <16 x i1> %553, <16 x float> %523, <16 x float> %542
+  %555 = fcmp contract olt <16 x float> %544, %528
+  %556 = select contract <16 x i1> %555, <16 x float> %544, <16 x float> %528
+  %557 = fcmp contract olt <16 x float> %554, %556
+  %558 = select contract <16 x i1> %557, <16 x float> %554, <16 x float> %556
+  %559 = fcmp contract ogt <16 x float> %523, %542
+  %560 = select contract <16 x i1> %559, <16 x float> %523, <16 x float> %542
+  %561 = fcmp contract ogt <16 x float> %544, %528
+  %562 = select contract <16 x i1> %561, <16 x float> %544, <16 x float> %528
+  %563 = fcmp contract ogt <16 x float> %560, %562
+  %564 = select contract <16 x i1> %563, <16 x float> %560, <16 x float> %562
+  %565 = getelementptr inbounds [16 x <16 x float>], ptr %21, i64 0, i64 %505
+  %566 = load <16 x float>, ptr %565, align 64
+  %567 = fadd contract <16 x float> %558, %564
+  %568 = fmul contract <16 x float> %567, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %569 = fadd contract <16 x float> %566, %568
+  %570 = getelementptr inbounds [16 x <16 x float>], ptr %16, i64 0, i64 %505
+  store <16 x float> %569, ptr %570, align 64
+  %571 = fsub contract <16 x float> %564, %558
+  %572 = fmul contract <16 x float> %571, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %573 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %505
   store <16 x float> %572, ptr %573, align 64
-  %574 = fsub contract <16 x float> %567, %561
-  %575 = fmul contract <16 x float> %574, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %576 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %508
-  store <16 x float> %575, ptr %576, align 64
-  %577 = add nuw nsw i64 %508, 1
-  %578 = icmp eq i64 %577, %112
-  br i1 %578, label %294, label %507
+  %574 = add nuw nsw i64 %505, 1
+  %575 = icmp eq i64 %574, %112
+  br i1 %575, label %294, label %504
 
-579:
-  %580 = phi <16 x float> [ zeroinitializer, %504 ], [ zeroinitializer, %306 ], [ %612, %611 ]
-  %581 = phi <16 x float> [ zeroinitializer, %504 ], [ zeroinitializer, %306 ], [ %613, %611 ]
-  %582 = fcmp contract oeq <16 x float> %117, zeroinitializer
-  %583 = load float, ptr %41, align 8
-  %584 = insertelement <16 x float> poison, float %583, i64 0
-  %585 = shufflevector <16 x float> %584, <16 x float> poison, <16 x i32> zeroinitializer
-  %586 = fneg contract <16 x float> %585
-  %587 = select <16 x i1> %582, <16 x float> %586, <16 x float> %585
-  %588 = fadd contract <16 x float> %587, zeroinitializer
-  %589 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %581
-  %590 = fcmp contract ogt <16 x float> %589, <float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000>
-  %591 = select contract <16 x i1> %590, <16 x float> %589, <16 x float> <float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000>
-  %592 = fdiv contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %591
-  %593 = icmp slt i64 %112, 1
-  br i1 %593, label %616, label %594
+576:
+  %577 = phi <16 x float> [ zeroinitializer, %503 ], [ zeroinitializer, %307 ], [ %608, %607 ]
+  %578 = phi <16 x float> [ zeroinitializer, %503 ], [ zeroinitializer, %307 ], [ %609, %607 ]
+  %579 = fcmp contract oeq <16 x float> %117, zeroinitializer
+  %580 = load float, ptr %41, align 8
+  %581 = insertelement <16 x float> poison, float %580, i64 0
+  %582 = shufflevector <16 x float> %581, <16 x float> poison, <16 x i32> zeroinitializer
+  %583 = fneg contract <16 x float> %582
+  %584 = select <16 x i1> %579, <16 x float> %583, <16 x float> %582
+  %585 = fadd contract <16 x float> %584, zeroinitializer
+  %586 = fsub contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %578
+  %587 = fcmp contract ogt <16 x float> %586, <float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000>
+  %588 = select contract <16 x i1> %587, <16 x float> %586, <16 x float> <float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000, float 0x3EB0C6F7A0000000>
+  %589 = fdiv contract <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, %588
+  %590 = icmp slt i64 %112, 1
+  br i1 %590, label %612, label %591
 
-594:
-  %595 = load ptr, ptr %42, align 8
-  %596 = load ptr, ptr %39, align 8
-  br label %621
+591:
+  %592 = load ptr, ptr %42, align 8
+  br label %617
 
-597:
-  %598 = phi <16 x float> [ zeroinitializer, %505 ], [ %613, %611 ]
-  %599 = phi i64 [ 0, %505 ], [ %614, %611 ]
-  %600 = phi <16 x float> [ zeroinitializer, %505 ], [ %612, %611 ]
-  %601 = getelementptr inbounds %struct.Joint, ptr %506, i64 %599, i32 2
-  %602 = load float, ptr %601, align 4
-  %603 = fcmp contract oeq float %602, 0.000000e+00
-  br i1 %603, label %604, label %611
+593:
+  %594 = phi <16 x float> [ %609, %607 ], [ zeroinitializer, %503 ]
+  %595 = phi i64 [ %610, %607 ], [ 0, %503 ]
+  %596 = phi <16 x float> [ %608, %607 ], [ zeroinitializer, %503 ]
+  %597 = getelementptr inbounds %struct.Joint, ptr %295, i64 %595, i32 2
+  %598 = load float, ptr %597, align 4
+  %599 = fcmp contract oeq float %598, 0.000000e+00
+  br i1 %599, label %600, label %607
 
-604:
-  %605 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %599
-  %606 = load <16 x float>, ptr %605, align 64
-  %607 = fadd contract <16 x float> %598, %606
-  %608 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %599
-  %609 = load <16 x float>, ptr %608, align 64
-  %610 = fadd contract <16 x float> %600, %609
-  br label %611
+600:
+  %601 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %595
+  %602 = load <16 x float>, ptr %601, align 64
+  %603 = fadd contract <16 x float> %594, %602
+  %604 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %595
+  %605 = load <16 x float>, ptr %604, align 64
+  %606 = fadd contract <16 x float> %596, %605
+  br label %607
 
-611:
-  %612 = phi <16 x float> [ %610, %604 ], [ %600, %597 ]
-  %613 = phi <16 x float> [ %607, %604 ], [ %598, %597 ]
-  %614 = add nuw nsw i64 %599, 1
-  %615 = icmp eq i64 %614, %112
-  br i1 %615, label %579, label %597
+607:
+  %608 = phi <16 x float> [ %606, %600 ], [ %596, %593 ]
+  %609 = phi <16 x float> [ %603, %600 ], [ %594, %593 ]
+  %610 = add nuw nsw i64 %595, 1
+  %611 = icmp eq i64 %610, %112
+  br i1 %611, label %576, label %593
 
-616:
-  %617 = load i64, ptr %43, align 8
-  %618 = icmp sgt i64 %617, 0
-  br i1 %618, label %619, label %743
+612:
+  %613 = load i64, ptr %43, align 8
+  %614 = icmp sgt i64 %613, 0
+  br i1 %614, label %615, label %739
 
-619:
-  %620 = load ptr, ptr %44, align 8
-  br label %744
+615:
+  %616 = load ptr, ptr %44, align 8
+  br label %740
 
-621:
-  %622 = phi i64 [ 1, %594 ], [ %688, %683 ]
-  %623 = getelementptr inbounds %struct.Sphere, ptr %595, i64 %622
-  %624 = getelementptr inbounds [17 x %struct.Frame], ptr %27, i64 0, i64 %622
-  %625 = load float, ptr %623, align 4
-  %626 = getelementptr inbounds i8, ptr %623, i64 4
-  %627 = load float, ptr %626, align 4
-  %628 = getelementptr inbounds i8, ptr %623, i64 8
-  %629 = load float, ptr %628, align 4
-  %630 = getelementptr inbounds i8, ptr %624, i64 576
-  %631 = load <16 x float>, ptr %630, align 64
-  %632 = load <16 x float>, ptr %624, align 64
-  %633 = insertelement <16 x float> poison, float %625, i64 0
-  %634 = shufflevector <16 x float> %633, <16 x float> poison, <16 x i32> zeroinitializer
-  %635 = fmul contract <16 x float> %634, %632
-  %636 = fadd contract <16 x float> %631, %635
-  %637 = getelementptr inbounds i8, ptr %624, i64 64
-  %638 = load <16 x float>, ptr %637, align 64
-  %639 = insertelement <16 x float> poison, float %627, i64 0
-  %640 = shufflevector <16 x float> %639, <16 x float> poison, <16 x i32> zeroinitializer
-  %641 = fmul contract <16 x float> %640, %638
-  %642 = fadd contract <16 x float> %636, %641
-  %643 = getelementptr inbounds i8, ptr %624, i64 128
-  %644 = load <16 x float>, ptr %643, align 64
-  %645 = insertelement <16 x float> poison, float %629, i64 0
-  %646 = shufflevector <16 x float> %645, <16 x float> poison, <16 x i32> zeroinitializer
-  %647 = fmul contract <16 x float> %646, %644
-  %648 = fadd contract <16 x float> %642, %647
-  %649 = getelementptr inbounds i8, ptr %624, i64 640
-  %650 = load <16 x float>, ptr %649, align 64
-  %651 = getelementptr inbounds i8, ptr %624, i64 192
+617:
+  %618 = phi i64 [ 1, %591 ], [ %684, %679 ]
+  %619 = getelementptr inbounds %struct.Sphere, ptr %592, i64 %618
+  %620 = getelementptr inbounds [17 x %struct.Frame], ptr %27, i64 0, i64 %618
+  %621 = load float, ptr %619, align 4
+  %622 = getelementptr inbounds i8, ptr %619, i64 4
+  %623 = load float, ptr %622, align 4
+  %624 = getelementptr inbounds i8, ptr %619, i64 8
+  %625 = load float, ptr %624, align 4
+  %626 = getelementptr inbounds i8, ptr %620, i64 576
+  %627 = load <16 x float>, ptr %626, align 64
+  %628 = load <16 x float>, ptr %620, align 64
+  %629 = insertelement <16 x float> poison, float %621, i64 0
+  %630 = shufflevector <16 x float> %629, <16 x float> poison, <16 x i32> zeroinitializer
+  %631 = fmul contract <16 x float> %630, %628
+  %632 = fadd contract <16 x float> %627, %631
+  %633 = getelementptr inbounds i8, ptr %620, i64 64
+  %634 = load <16 x float>, ptr %633, align 64
+  %635 = insertelement <16 x float> poison, float %623, i64 0
+  %636 = shufflevector <16 x float> %635, <16 x float> poison, <16 x i32> zeroinitializer
+  %637 = fmul contract <16 x float> %636, %634
+  %638 = fadd contract <16 x float> %632, %637
+  %639 = getelementptr inbounds i8, ptr %620, i64 128
+  %640 = load <16 x float>, ptr %639, align 64
+  %641 = insertelement <16 x float> poison, float %625, i64 0
+  %642 = shufflevector <16 x float> %641, <16 x float> poison, <16 x i32> zeroinitializer
+  %643 = fmul contract <16 x float> %642, %640
+  %644 = fadd contract <16 x float> %638, %643
+  %645 = getelementptr inbounds i8, ptr %620, i64 640
+  %646 = load <16 x float>, ptr %645, align 64
+  %647 = getelementptr inbounds i8, ptr %620, i64 192
+  %648 = load <16 x float>, ptr %647, align 64
+  %649 = fmul contract <16 x float> %630, %648
+  %650 = fadd contract <16 x float> %646, %649
+  %651 = getelementptr inbounds i8, ptr %620, i64 256
   %652 = load <16 x float>, ptr %651, align 64
-  %653 = fmul contract <16 x float> %634, %652
+  %653 = fmul contract <16 x float> %636, %652
   %654 = fadd contract <16 x float> %650, %653
-  %655 = getelementptr inbounds i8, ptr %624, i64 256
+  %655 = getelementptr inbounds i8, ptr %620, i64 320
   %656 = load <16 x float>, ptr %655, align 64
-  %657 = fmul contract <16 x float> %640, %656
+  %657 = fmul contract <16 x float> %642, %656
   %658 = fadd contract <16 x float> %654, %657
-  %659 = getelementptr inbounds i8, ptr %624, i64 320
+  %659 = getelementptr inbounds i8, ptr %620, i64 704
   %660 = load <16 x float>, ptr %659, align 64
-  %661 = fmul contract <16 x float> %646, %660
-  %662 = fadd contract <16 x float> %658, %661
-  %663 = getelementptr inbounds i8, ptr %624, i64 704
-  %664 = load <16 x float>, ptr %663, align 64
-  %665 = getelementptr inbounds i8, ptr %624, i64 384
+  %661 = getelementptr inbounds i8, ptr %620, i64 384
+  %662 = load <16 x float>, ptr %661, align 64
+  %663 = fmul contract <16 x float> %630, %662
+  %664 = fadd contract <16 x float> %660, %663
+  %665 = getelementptr inbounds i8, ptr %620, i64 448
   %666 = load <16 x float>, ptr %665, align 64
-  %667 = fmul contract <16 x float> %634, %666
+  %667 = fmul contract <16 x float> %636, %666
   %668 = fadd contract <16 x float> %664, %667
-  %669 = getelementptr inbounds i8, ptr %624, i64 448
+  %669 = getelementptr inbounds i8, ptr %620, i64 512
   %670 = load <16 x float>, ptr %669, align 64
-  %671 = fmul contract <16 x float> %640, %670
+  %671 = fmul contract <16 x float> %642, %670
   %672 = fadd contract <16 x float> %668, %671
-  %673 = getelementptr inbounds i8, ptr %624, i64 512
-  %674 = load <16 x float>, ptr %673, align 64
-  %675 = fmul contract <16 x float> %646, %674
-  %676 = fadd contract <16 x float> %672, %675
-  %677 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %622, i64 %622
-  store <16 x float> zeroinitializer, ptr %677, align 64
-  %678 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %622, i64 %622
-  store <16 x float> zeroinitializer, ptr %678, align 64
-  %679 = getelementptr inbounds i8, ptr %623, i64 12
-  %680 = load float, ptr %679, align 4
-  %681 = insertelement <16 x float> poison, float %680, i64 0
-  %682 = shufflevector <16 x float> %681, <16 x float> poison, <16 x i32> zeroinitializer
-  br label %690
+  %673 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %618, i64 %618
+  store <16 x float> zeroinitializer, ptr %673, align 64
+  %674 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %618, i64 %618
+  store <16 x float> zeroinitializer, ptr %674, align 64
+  %675 = getelementptr inbounds i8, ptr %619, i64 12
+  %676 = load float, ptr %675, align 4
+  %677 = insertelement <16 x float> poison, float %676, i64 0
+  %678 = shufflevector <16 x float> %677, <16 x float> poison, <16 x i32> zeroinitializer
+  br label %686
 
-683:
-  %684 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %622
-  %685 = load <16 x float>, ptr %684, align 64
-  %686 = fadd contract <16 x float> %588, %685
-  %687 = getelementptr inbounds [17 x <16 x float>], ptr %19, i64 0, i64 %622
-  store <16 x float> %686, ptr %687, align 64
-  %688 = add nuw i64 %622, 1
-  %689 = icmp eq i64 %622, %112
-  br i1 %689, label %616, label %621
+679:
+  %680 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %618
+  %681 = load <16 x float>, ptr %680, align 64
+  %682 = fadd contract <16 x float> %585, %681
+  %683 = getelementptr inbounds [17 x <16 x float>], ptr %19, i64 0, i64 %618
+  store <16 x float> %682, ptr %683, align 64
+  %684 = add nuw i64 %618, 1
+  %685 = icmp eq i64 %618, %112
+  br i1 %685, label %612, label %617
 
-690:
-  %691 = phi <16 x float> [ zeroinitializer, %621 ], [ %740, %690 ]
-  %692 = phi <16 x float> [ zeroinitializer, %621 ], [ %735, %690 ]
-  %693 = phi i64 [ %622, %621 ], [ %694, %690 ]
-  %694 = add nsw i64 %693, -1
-  %695 = getelementptr inbounds [17 x %struct.Frame], ptr %27, i64 0, i64 %693
-  %696 = getelementptr inbounds i8, ptr %695, i64 576
-  %697 = load <16 x float>, ptr %696, align 64
-  %698 = fsub contract <16 x float> %648, %697
-  %699 = getelementptr inbounds i8, ptr %695, i64 640
-  %700 = load <16 x float>, ptr %699, align 64
-  %701 = fsub contract <16 x float> %662, %700
-  %702 = getelementptr inbounds i8, ptr %695, i64 704
-  %703 = load <16 x float>, ptr %702, align 64
-  %704 = fsub contract <16 x float> %676, %703
-  %705 = getelementptr inbounds i8, ptr %695, i64 128
-  %706 = load <16 x float>, ptr %705, align 64
-  %707 = fmul contract <16 x float> %698, %706
-  %708 = getelementptr inbounds i8, ptr %695, i64 320
+686:
+  %687 = phi <16 x float> [ zeroinitializer, %617 ], [ %736, %686 ]
+  %688 = phi <16 x float> [ zeroinitializer, %617 ], [ %731, %686 ]
+  %689 = phi i64 [ %618, %617 ], [ %690, %686 ]
+  %690 = add nsw i64 %689, -1
+  %691 = getelementptr inbounds [17 x %struct.Frame], ptr %27, i64 0, i64 %689
+  %692 = getelementptr inbounds i8, ptr %691, i64 576
+  %693 = load <16 x float>, ptr %692, align 64
+  %694 = fsub contract <16 x float> %644, %693
+  %695 = getelementptr inbounds i8, ptr %691, i64 640
+  %696 = load <16 x float>, ptr %695, align 64
+  %697 = fsub contract <16 x float> %658, %696
+  %698 = getelementptr inbounds i8, ptr %691, i64 704
+  %699 = load <16 x float>, ptr %698, align 64
+  %700 = fsub contract <16 x float> %672, %699
+  %701 = getelementptr inbounds i8, ptr %691, i64 128
+  %702 = load <16 x float>, ptr %701, align 64
+  %703 = fmul contract <16 x float> %694, %702
+  %704 = getelementptr inbounds i8, ptr %691, i64 320
+  %705 = load <16 x float>, ptr %704, align 64
+  %706 = fmul contract <16 x float> %697, %705
+  %707 = fadd contract <16 x float> %703, %706
+  %708 = getelementptr inbounds i8, ptr %691, i64 512
   %709 = load <16 x float>, ptr %708, align 64
-  %710 = fmul contract <16 x float> %701, %709
+  %710 = fmul contract <16 x float> %700, %709
   %711 = fadd contract <16 x float> %707, %710
-  %712 = getelementptr inbounds i8, ptr %695, i64 512
-  %713 = load <16 x float>, ptr %712, align 64
-  %714 = fmul contract <16 x float> %704, %713
-  %715 = fadd contract <16 x float> %711, %714
-  %716 = fmul contract <16 x float> %698, %698
-  %717 = fmul contract <16 x float> %701, %701
-  %718 = fadd contract <16 x float> %716, %717
-  %719 = fmul contract <16 x float> %704, %704
-  %720 = fadd contract <16 x float> %718, %719
-  %721 = fmul contract <16 x float> %715, %715
-  %722 = fsub contract <16 x float> %720, %721
-  %723 = fcmp contract ogt <16 x float> %722, zeroinitializer
-  %724 = select contract <16 x i1> %723, <16 x float> %722, <16 x float> zeroinitializer
-  %725 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %724)
-  %726 = fadd contract <16 x float> %682, %725
-  %727 = getelementptr inbounds %struct.Joint, ptr %596, i64 %694, i32 2
-  %728 = load float, ptr %727, align 4
-  %729 = fcmp contract une float %728, 0.000000e+00
-  %730 = select i1 %729, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> %726
-  %731 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %694
-  %732 = load <16 x float>, ptr %731, align 64
-  %733 = fmul contract <16 x float> %592, %732
-  %734 = fmul contract <16 x float> %733, %730
-  %735 = fadd contract <16 x float> %692, %734
-  %736 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %622, i64 %694
-  store <16 x float> %735, ptr %736, align 64
-  %737 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %694
-  %738 = load <16 x float>, ptr %737, align 64
-  %739 = fmul contract <16 x float> %738, %730
-  %740 = fadd contract <16 x float> %691, %739
-  %741 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %622, i64 %694
-  store <16 x float> %740, ptr %741, align 64
-  %742 = icmp sgt i64 %693, 1
-  br i1 %742, label %690, label %683
+  %712 = fmul contract <16 x float> %694, %694
+  %713 = fmul contract <16 x float> %697, %697
+  %714 = fadd contract <16 x float> %712, %713
+  %715 = fmul contract <16 x float> %700, %700
+  %716 = fadd contract <16 x float> %714, %715
+  %717 = fmul contract <16 x float> %711, %711
+  %718 = fsub contract <16 x float> %716, %717
+  %719 = fcmp contract ogt <16 x float> %718, zeroinitializer
+  %720 = select contract <16 x i1> %719, <16 x float> %718, <16 x float> zeroinitializer
+  %721 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %720)
+  %722 = fadd contract <16 x float> %678, %721
+  %723 = getelementptr inbounds %struct.Joint, ptr %295, i64 %690, i32 2
+  %724 = load float, ptr %723, align 4
+  %725 = fcmp contract une float %724, 0.000000e+00
+  %726 = select i1 %725, <16 x float> <float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00, float 1.000000e+00>, <16 x float> %722
+  %727 = getelementptr inbounds [16 x <16 x float>], ptr %17, i64 0, i64 %690
+  %728 = load <16 x float>, ptr %727, align 64
+  %729 = fmul contract <16 x float> %589, %728
+  %730 = fmul contract <16 x float> %729, %726
+  %731 = fadd contract <16 x float> %688, %730
+  %732 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %618, i64 %690
+  store <16 x float> %731, ptr %732, align 64
+  %733 = getelementptr inbounds [16 x <16 x float>], ptr %18, i64 0, i64 %690
+  %734 = load <16 x float>, ptr %733, align 64
+  %735 = fmul contract <16 x float> %734, %726
+  %736 = fadd contract <16 x float> %687, %735
+  %737 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %618, i64 %690
+  store <16 x float> %736, ptr %737, align 64
+  %738 = icmp sgt i64 %689, 1
+  br i1 %738, label %686, label %679
 
-743:
-  br i1 %593, label %758, label %763
+739:
+  br i1 %590, label %754, label %759
 
-744:
-  %745 = phi i64 [ 0, %619 ], [ %754, %744 ]
-  %746 = getelementptr inbounds %struct.LinkPair, ptr %620, i64 %745
-  %747 = getelementptr inbounds i8, ptr %746, i64 8
-  %748 = load i64, ptr %747, align 8
-  %749 = load i64, ptr %746, align 8
-  %750 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %748, i64 %749
-  %751 = load <16 x float>, ptr %750, align 64
-  %752 = fadd contract <16 x float> %588, %751
-  %753 = getelementptr inbounds [136 x <16 x float>], ptr %20, i64 0, i64 %745
-  store <16 x float> %752, ptr %753, align 64
-  %754 = add nuw nsw i64 %745, 1
-  %755 = icmp eq i64 %754, %617
-  br i1 %755, label %743, label %744
+740:
+  %741 = phi i64 [ 0, %615 ], [ %750, %740 ]
+  %742 = getelementptr inbounds %struct.LinkPair, ptr %616, i64 %741
+  %743 = getelementptr inbounds i8, ptr %742, i64 8
+  %744 = load i64, ptr %743, align 8
+  %745 = load i64, ptr %742, align 8
+  %746 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %744, i64 %745
+  %747 = load <16 x float>, ptr %746, align 64
+  %748 = fadd contract <16 x float> %585, %747
+  %749 = getelementptr inbounds [136 x <16 x float>], ptr %20, i64 0, i64 %741
+  store <16 x float> %748, ptr %749, align 64
+  %750 = add nuw nsw i64 %741, 1
+  %751 = icmp eq i64 %750, %613
+  br i1 %751, label %739, label %740
 
-756:
-  %757 = load i64, ptr %43, align 8
-  br label %758
+752:
+  %753 = load i64, ptr %43, align 8
+  br label %754
 
-758:
-  %759 = phi i64 [ %617, %743 ], [ %757, %756 ]
-  %760 = phi i64 [ %64, %743 ], [ %1173, %756 ]
-  %761 = phi <16 x i32> [ zeroinitializer, %743 ], [ %1174, %756 ]
+754:
+  %755 = phi i64 [ %613, %739 ], [ %753, %752 ]
+  %756 = phi i64 [ %64, %739 ], [ %1169, %752 ]
+  %757 = phi <16 x i32> [ zeroinitializer, %739 ], [ %1170, %752 ]
   call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %13)
-  %762 = icmp sgt i64 %759, 0
-  br i1 %762, label %1177, label %1766
+  %758 = icmp sgt i64 %755, 0
+  br i1 %758, label %1173, label %1762
 
-763:
-  %764 = phi i64 [ %1172, %1171 ], [ %112, %743 ]
-  %765 = phi <16 x i32> [ %1174, %1171 ], [ zeroinitializer, %743 ]
-  %766 = phi i64 [ %1175, %1171 ], [ 1, %743 ]
-  %767 = phi i64 [ %1173, %1171 ], [ %64, %743 ]
-  %768 = load ptr, ptr %45, align 8
-  %769 = getelementptr inbounds %struct.Sphere, ptr %768, i64 %766
-  %770 = getelementptr inbounds i8, ptr %769, i64 12
-  %771 = load float, ptr %770, align 4
-  %772 = fcmp contract olt float %771, 0.000000e+00
-  br i1 %772, label %1171, label %773
+759:
+  %760 = phi i64 [ %1168, %1167 ], [ %112, %739 ]
+  %761 = phi <16 x i32> [ %1170, %1167 ], [ zeroinitializer, %739 ]
+  %762 = phi i64 [ %1171, %1167 ], [ 1, %739 ]
+  %763 = phi i64 [ %1169, %1167 ], [ %64, %739 ]
+  %764 = load ptr, ptr %45, align 8
+  %765 = getelementptr inbounds %struct.Sphere, ptr %764, i64 %762
+  %766 = getelementptr inbounds i8, ptr %765, i64 12
+  %767 = load float, ptr %766, align 4
+  %768 = fcmp contract olt float %767, 0.000000e+00
+  br i1 %768, label %1167, label %769
 
-773:
-  %774 = getelementptr inbounds %struct.Frame, ptr %27, i64 %766
-  %775 = load float, ptr %769, align 4
-  %776 = getelementptr inbounds i8, ptr %769, i64 4
-  %777 = load float, ptr %776, align 4
-  %778 = getelementptr inbounds i8, ptr %769, i64 8
-  %779 = load float, ptr %778, align 4
-  %780 = getelementptr inbounds i8, ptr %774, i64 576
-  %781 = load <16 x float>, ptr %780, align 64
-  %782 = load <16 x float>, ptr %774, align 64
-  %783 = insertelement <16 x float> poison, float %775, i64 0
-  %784 = shufflevector <16 x float> %783, <16 x float> poison, <16 x i32> zeroinitializer
-  %785 = fmul contract <16 x float> %784, %782
-  %786 = fadd contract <16 x float> %781, %785
-  %787 = getelementptr inbounds i8, ptr %774, i64 64
-  %788 = load <16 x float>, ptr %787, align 64
-  %789 = insertelement <16 x float> poison, float %777, i64 0
-  %790 = shufflevector <16 x float> %789, <16 x float> poison, <16 x i32> zeroinitializer
-  %791 = fmul contract <16 x float> %790, %788
-  %792 = fadd contract <16 x float> %786, %791
-  %793 = getelementptr inbounds i8, ptr %774, i64 128
-  %794 = load <16 x float>, ptr %793, align 64
-  %795 = insertelement <16 x float> poison, float %779, i64 0
-  %796 = shufflevector <16 x float> %795, <16 x float> poison, <16 x i32> zeroinitializer
-  %797 = fmul contract <16 x float> %796, %794
-  %798 = fadd contract <16 x float> %792, %797
-  %799 = getelementptr inbounds i8, ptr %774, i64 640
-  %800 = load <16 x float>, ptr %799, align 64
-  %801 = getelementptr inbounds i8, ptr %774, i64 192
+769:
+  %770 = getelementptr inbounds %struct.Frame, ptr %27, i64 %762
+  %771 = load float, ptr %765, align 4
+  %772 = getelementptr inbounds i8, ptr %765, i64 4
+  %773 = load float, ptr %772, align 4
+  %774 = getelementptr inbounds i8, ptr %765, i64 8
+  %775 = load float, ptr %774, align 4
+  %776 = getelementptr inbounds i8, ptr %770, i64 576
+  %777 = load <16 x float>, ptr %776, align 64
+  %778 = load <16 x float>, ptr %770, align 64
+  %779 = insertelement <16 x float> poison, float %771, i64 0
+  %780 = shufflevector <16 x float> %779, <16 x float> poison, <16 x i32> zeroinitializer
+  %781 = fmul contract <16 x float> %780, %778
+  %782 = fadd contract <16 x float> %777, %781
+  %783 = getelementptr inbounds i8, ptr %770, i64 64
+  %784 = load <16 x float>, ptr %783, align 64
+  %785 = insertelement <16 x float> poison, float %773, i64 0
+  %786 = shufflevector <16 x float> %785, <16 x float> poison, <16 x i32> zeroinitializer
+  %787 = fmul contract <16 x float> %786, %784
+  %788 = fadd contract <16 x float> %782, %787
+  %789 = getelementptr inbounds i8, ptr %770, i64 128
+  %790 = load <16 x float>, ptr %789, align 64
+  %791 = insertelement <16 x float> poison, float %775, i64 0
+  %792 = shufflevector <16 x float> %791, <16 x float> poison, <16 x i32> zeroinitializer
+  %793 = fmul contract <16 x float> %792, %790
+  %794 = fadd contract <16 x float> %788, %793
+  %795 = getelementptr inbounds i8, ptr %770, i64 640
+  %796 = load <16 x float>, ptr %795, align 64
+  %797 = getelementptr inbounds i8, ptr %770, i64 192
+  %798 = load <16 x float>, ptr %797, align 64
+  %799 = fmul contract <16 x float> %780, %798
+  %800 = fadd contract <16 x float> %796, %799
+  %801 = getelementptr inbounds i8, ptr %770, i64 256
   %802 = load <16 x float>, ptr %801, align 64
-  %803 = fmul contract <16 x float> %784, %802
+  %803 = fmul contract <16 x float> %786, %802
   %804 = fadd contract <16 x float> %800, %803
-  %805 = getelementptr inbounds i8, ptr %774, i64 256
+  %805 = getelementptr inbounds i8, ptr %770, i64 320
   %806 = load <16 x float>, ptr %805, align 64
-  %807 = fmul contract <16 x float> %790, %806
+  %807 = fmul contract <16 x float> %792, %806
   %808 = fadd contract <16 x float> %804, %807
-  %809 = getelementptr inbounds i8, ptr %774, i64 320
+  %809 = getelementptr inbounds i8, ptr %770, i64 704
   %810 = load <16 x float>, ptr %809, align 64
-  %811 = fmul contract <16 x float> %796, %810
-  %812 = fadd contract <16 x float> %808, %811
-  %813 = getelementptr inbounds i8, ptr %774, i64 704
-  %814 = load <16 x float>, ptr %813, align 64
-  %815 = getelementptr inbounds i8, ptr %774, i64 384
+  %811 = getelementptr inbounds i8, ptr %770, i64 384
+  %812 = load <16 x float>, ptr %811, align 64
+  %813 = fmul contract <16 x float> %780, %812
+  %814 = fadd contract <16 x float> %810, %813
+  %815 = getelementptr inbounds i8, ptr %770, i64 448
   %816 = load <16 x float>, ptr %815, align 64
-  %817 = fmul contract <16 x float> %784, %816
+  %817 = fmul contract <16 x float> %786, %816
   %818 = fadd contract <16 x float> %814, %817
-  %819 = getelementptr inbounds i8, ptr %774, i64 448
+  %819 = getelementptr inbounds i8, ptr %770, i64 512
   %820 = load <16 x float>, ptr %819, align 64
-  %821 = fmul contract <16 x float> %790, %820
+  %821 = fmul contract <16 x float> %792, %820
   %822 = fadd contract <16 x float> %818, %821
-  %823 = getelementptr inbounds i8, ptr %774, i64 512
+  %823 = getelementptr inbounds <16 x float>, ptr %19, i64 %762
   %824 = load <16 x float>, ptr %823, align 64
-  %825 = fmul contract <16 x float> %796, %824
-  %826 = fadd contract <16 x float> %822, %825
-  %827 = getelementptr inbounds <16 x float>, ptr %19, i64 %766
-  %828 = load <16 x float>, ptr %827, align 64
-  %829 = load i64, ptr %46, align 8
-  %830 = icmp sgt i64 %829, 0
-  br i1 %830, label %831, label %1171
+  %825 = load i64, ptr %46, align 8
+  %826 = icmp sgt i64 %825, 0
+  br i1 %826, label %827, label %1167
+
+827:
+  %828 = add nsw i64 %762, -1
+  %829 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %762, i64 0
+  %830 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %762, i64 0
+  br label %831
 
 831:
-  %832 = add nsw i64 %766, -1
-  %833 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %766, i64 0
-  %834 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %766, i64 0
-  br label %835
+  %832 = phi i64 [ %825, %827 ], [ %1160, %1159 ]
+  %833 = phi <16 x i32> [ %761, %827 ], [ %1162, %1159 ]
+  %834 = phi i64 [ 0, %827 ], [ %1163, %1159 ]
+  %835 = phi i64 [ %763, %827 ], [ %1161, %1159 ]
+  %836 = load ptr, ptr %47, align 8
+  %837 = getelementptr inbounds %struct.Object, ptr %836, i64 %834
+  %838 = load ptr, ptr %48, align 8
+  %839 = mul nsw i64 %832, %762
+  %840 = getelementptr float, ptr %838, i64 %839
+  %841 = getelementptr float, ptr %840, i64 %834
+  %842 = load float, ptr %841, align 4
+  %843 = getelementptr inbounds i8, ptr %837, i64 60
+  %844 = load float, ptr %843, align 4
+  %845 = fadd contract float %842, %844
+  %846 = fcmp contract olt float %845, -1.000000e+08
+  br i1 %846, label %1159, label %847
 
-835:
-  %836 = phi i64 [ %829, %831 ], [ %1164, %1163 ]
-  %837 = phi <16 x i32> [ %765, %831 ], [ %1166, %1163 ]
-  %838 = phi i64 [ 0, %831 ], [ %1167, %1163 ]
-  %839 = phi i64 [ %767, %831 ], [ %1165, %1163 ]
-  %840 = load ptr, ptr %47, align 8
-  %841 = getelementptr inbounds %struct.Object, ptr %840, i64 %838
-  %842 = load ptr, ptr %48, align 8
-  %843 = mul nsw i64 %836, %766
-  %844 = getelementptr float, ptr %842, i64 %843
-  %845 = getelementptr float, ptr %844, i64 %838
-  %846 = load float, ptr %845, align 4
-  %847 = getelementptr inbounds i8, ptr %841, i64 60
-  %848 = load float, ptr %847, align 4
-  %849 = fadd contract float %846, %848
-  %850 = fcmp contract olt float %849, -1.000000e+08
-  br i1 %850, label %1163, label %851
-
-851:
-  %852 = load float, ptr %770, align 4
-  %853 = fadd contract float %849, %852
-  %854 = insertelement <16 x float> poison, float %853, i64 0
-  %855 = shufflevector <16 x float> %854, <16 x float> poison, <16 x i32> zeroinitializer
-  %856 = fadd contract <16 x float> %828, %855
-  %857 = fcmp contract ogt <16 x float> %856, zeroinitializer
-  %858 = select contract <16 x i1> %857, <16 x float> %856, <16 x float> zeroinitializer
-  %859 = getelementptr inbounds i8, ptr %841, i64 36
-  %860 = load float, ptr %859, align 4
-  %861 = insertelement <16 x float> poison, float %860, i64 0
-  %862 = shufflevector <16 x float> %861, <16 x float> poison, <16 x i32> zeroinitializer
-  %863 = load float, ptr %841, align 4
-  %864 = insertelement <16 x float> poison, float %863, i64 0
-  %865 = shufflevector <16 x float> %864, <16 x float> poison, <16 x i32> zeroinitializer
-  %866 = fmul contract <16 x float> %798, %865
-  %867 = fadd contract <16 x float> %862, %866
-  %868 = getelementptr inbounds i8, ptr %841, i64 4
-  %869 = load float, ptr %868, align 4
-  %870 = insertelement <16 x float> poison, float %869, i64 0
-  %871 = shufflevector <16 x float> %870, <16 x float> poison, <16 x i32> zeroinitializer
-  %872 = fmul contract <16 x float> %812, %871
-  %873 = fadd contract <16 x float> %867, %872
-  %874 = getelementptr inbounds i8, ptr %841, i64 8
-  %875 = load float, ptr %874, align 4
-  %876 = insertelement <16 x float> poison, float %875, i64 0
-  %877 = shufflevector <16 x float> %876, <16 x float> poison, <16 x i32> zeroinitializer
-  %878 = fmul contract <16 x float> %826, %877
-  %879 = fadd contract <16 x float> %873, %878
-  %880 = getelementptr inbounds i8, ptr %841, i64 40
+847:
+  %848 = load float, ptr %766, align 4
+  %849 = fadd contract float %845, %848
+  %850 = insertelement <16 x float> poison, float %849, i64 0
+  %851 = shufflevector <16 x float> %850, <16 x float> poison, <16 x i32> zeroinitializer
+  %852 = fadd contract <16 x float> %824, %851
+  %853 = fcmp contract ogt <16 x float> %852, zeroinitializer
+  %854 = select contract <16 x i1> %853, <16 x float> %852, <16 x float> zeroinitializer
+  %855 = getelementptr inbounds i8, ptr %837, i64 36
+  %856 = load float, ptr %855, align 4
+  %857 = insertelement <16 x float> poison, float %856, i64 0
+  %858 = shufflevector <16 x float> %857, <16 x float> poison, <16 x i32> zeroinitializer
+  %859 = load float, ptr %837, align 4
+  %860 = insertelement <16 x float> poison, float %859, i64 0
+  %861 = shufflevector <16 x float> %860, <16 x float> poison, <16 x i32> zeroinitializer
+  %862 = fmul contract <16 x float> %794, %861
+  %863 = fadd contract <16 x float> %858, %862
+  %864 = getelementptr inbounds i8, ptr %837, i64 4
+  %865 = load float, ptr %864, align 4
+  %866 = insertelement <16 x float> poison, float %865, i64 0
+  %867 = shufflevector <16 x float> %866, <16 x float> poison, <16 x i32> zeroinitializer
+  %868 = fmul contract <16 x float> %808, %867
+  %869 = fadd contract <16 x float> %863, %868
+  %870 = getelementptr inbounds i8, ptr %837, i64 8
+  %871 = load float, ptr %870, align 4
+  %872 = insertelement <16 x float> poison, float %871, i64 0
+  %873 = shufflevector <16 x float> %872, <16 x float> poison, <16 x i32> zeroinitializer
+  %874 = fmul contract <16 x float> %822, %873
+  %875 = fadd contract <16 x float> %869, %874
+  %876 = getelementptr inbounds i8, ptr %837, i64 40
+  %877 = load float, ptr %876, align 4
+  %878 = insertelement <16 x float> poison, float %877, i64 0
+  %879 = shufflevector <16 x float> %878, <16 x float> poison, <16 x i32> zeroinitializer
+  %880 = getelementptr inbounds i8, ptr %837, i64 12
   %881 = load float, ptr %880, align 4
   %882 = insertelement <16 x float> poison, float %881, i64 0
   %883 = shufflevector <16 x float> %882, <16 x float> poison, <16 x i32> zeroinitializer
-  %884 = getelementptr inbounds i8, ptr %841, i64 12
-  %885 = load float, ptr %884, align 4
-  %886 = insertelement <16 x float> poison, float %885, i64 0
-  %887 = shufflevector <16 x float> %886, <16 x float> poison, <16 x i32> zeroinitializer
-  %888 = fmul contract <16 x float> %798, %887
-  %889 = fadd contract <16 x float> %883, %888
-  %890 = getelementptr inbounds i8, ptr %841, i64 16
-  %891 = load float, ptr %890, align 4
-  %892 = insertelement <16 x float> poison, float %891, i64 0
-  %893 = shufflevector <16 x float> %892, <16 x float> poison, <16 x i32> zeroinitializer
-  %894 = fmul contract <16 x float> %812, %893
-  %895 = fadd contract <16 x float> %889, %894
-  %896 = getelementptr inbounds i8, ptr %841, i64 20
-  %897 = load float, ptr %896, align 4
-  %898 = insertelement <16 x float> poison, float %897, i64 0
-  %899 = shufflevector <16 x float> %898, <16 x float> poison, <16 x i32> zeroinitializer
-  %900 = fmul contract <16 x float> %826, %899
-  %901 = fadd contract <16 x float> %895, %900
-  %902 = getelementptr inbounds i8, ptr %841, i64 44
+  %884 = fmul contract <16 x float> %794, %883
+  %885 = fadd contract <16 x float> %879, %884
+  %886 = getelementptr inbounds i8, ptr %837, i64 16
+  %887 = load float, ptr %886, align 4
+  %888 = insertelement <16 x float> poison, float %887, i64 0
+  %889 = shufflevector <16 x float> %888, <16 x float> poison, <16 x i32> zeroinitializer
+  %890 = fmul contract <16 x float> %808, %889
+  %891 = fadd contract <16 x float> %885, %890
+  %892 = getelementptr inbounds i8, ptr %837, i64 20
+  %893 = load float, ptr %892, align 4
+  %894 = insertelement <16 x float> poison, float %893, i64 0
+  %895 = shufflevector <16 x float> %894, <16 x float> poison, <16 x i32> zeroinitializer
+  %896 = fmul contract <16 x float> %822, %895
+  %897 = fadd contract <16 x float> %891, %896
+  %898 = getelementptr inbounds i8, ptr %837, i64 44
+  %899 = load float, ptr %898, align 4
+  %900 = insertelement <16 x float> poison, float %899, i64 0
+  %901 = shufflevector <16 x float> %900, <16 x float> poison, <16 x i32> zeroinitializer
+  %902 = getelementptr inbounds i8, ptr %837, i64 24
   %903 = load float, ptr %902, align 4
   %904 = insertelement <16 x float> poison, float %903, i64 0
   %905 = shufflevector <16 x float> %904, <16 x float> poison, <16 x i32> zeroinitializer
-  %906 = getelementptr inbounds i8, ptr %841, i64 24
-  %907 = load float, ptr %906, align 4
-  %908 = insertelement <16 x float> poison, float %907, i64 0
-  %909 = shufflevector <16 x float> %908, <16 x float> poison, <16 x i32> zeroinitializer
-  %910 = fmul contract <16 x float> %798, %909
-  %911 = fadd contract <16 x float> %905, %910
-  %912 = getelementptr inbounds i8, ptr %841, i64 28
-  %913 = load float, ptr %912, align 4
-  %914 = insertelement <16 x float> poison, float %913, i64 0
-  %915 = shufflevector <16 x float> %914, <16 x float> poison, <16 x i32> zeroinitializer
-  %916 = fmul contract <16 x float> %812, %915
-  %917 = fadd contract <16 x float> %911, %916
-  %918 = getelementptr inbounds i8, ptr %841, i64 32
-  %919 = load float, ptr %918, align 4
-  %920 = insertelement <16 x float> poison, float %919, i64 0
-  %921 = shufflevector <16 x float> %920, <16 x float> poison, <16 x i32> zeroinitializer
-  %922 = fmul contract <16 x float> %826, %921
-  %923 = fadd contract <16 x float> %917, %922
-  %924 = fmul contract <16 x float> %879, zeroinitializer
-  %925 = getelementptr inbounds i8, ptr %841, i64 68
-  %926 = load float, ptr %925, align 4
-  %927 = fcmp contract une float %926, 0.000000e+00
-  %928 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %923)
-  %929 = select contract i1 %927, <16 x float> %923, <16 x float> %928
-  %930 = getelementptr inbounds i8, ptr %841, i64 64
-  %931 = load float, ptr %930, align 4
-  %932 = fcmp contract une float %931, 0.000000e+00
-  br i1 %932, label %933, label %938
+  %906 = fmul contract <16 x float> %794, %905
+  %907 = fadd contract <16 x float> %901, %906
+  %908 = getelementptr inbounds i8, ptr %837, i64 28
+  %909 = load float, ptr %908, align 4
+  %910 = insertelement <16 x float> poison, float %909, i64 0
+  %911 = shufflevector <16 x float> %910, <16 x float> poison, <16 x i32> zeroinitializer
+  %912 = fmul contract <16 x float> %808, %911
+  %913 = fadd contract <16 x float> %907, %912
+  %914 = getelementptr inbounds i8, ptr %837, i64 32
+  %915 = load float, ptr %914, align 4
+  %916 = insertelement <16 x float> poison, float %915, i64 0
+  %917 = shufflevector <16 x float> %916, <16 x float> poison, <16 x i32> zeroinitializer
+  %918 = fmul contract <16 x float> %822, %917
+  %919 = fadd contract <16 x float> %913, %918
+  %920 = fmul contract <16 x float> %875, zeroinitializer
+  %921 = getelementptr inbounds i8, ptr %837, i64 68
+  %922 = load float, ptr %921, align 4
+  %923 = fcmp contract une float %922, 0.000000e+00
+  %924 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %919)
+  %925 = select contract i1 %923, <16 x float> %919, <16 x float> %924
+  %926 = getelementptr inbounds i8, ptr %837, i64 64
+  %927 = load float, ptr %926, align 4
+  %928 = fcmp contract une float %927, 0.000000e+00
+  br i1 %928, label %929, label %934
 
-933:
-  %934 = fmul contract <16 x float> %879, %879
-  %935 = fmul contract <16 x float> %901, %901
-  %936 = fadd contract <16 x float> %934, %935
-  %937 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %936)
-  br label %940
+929:
+  %930 = fmul contract <16 x float> %875, %875
+  %931 = fmul contract <16 x float> %897, %897
+  %932 = fadd contract <16 x float> %930, %931
+  %933 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %932)
+  br label %936
 
-938:
-  %939 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %879)
-  br label %940
+934:
+  %935 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %875)
+  br label %936
 
-940:
-  %941 = phi contract <16 x float> [ %937, %933 ], [ %939, %938 ]
-  %942 = getelementptr inbounds i8, ptr %841, i64 48
-  %943 = load float, ptr %942, align 4
-  %944 = insertelement <16 x float> poison, float %943, i64 0
-  %945 = shufflevector <16 x float> %944, <16 x float> poison, <16 x i32> zeroinitializer
-  %946 = fsub contract <16 x float> %941, %945
-  %947 = fcmp contract ogt <16 x float> %946, %924
-  %948 = select contract <16 x i1> %947, <16 x float> %946, <16 x float> %924
-  %949 = getelementptr inbounds i8, ptr %841, i64 56
-  %950 = load float, ptr %949, align 4
-  %951 = insertelement <16 x float> poison, float %950, i64 0
-  %952 = shufflevector <16 x float> %951, <16 x float> poison, <16 x i32> zeroinitializer
-  %953 = fsub contract <16 x float> %929, %952
-  %954 = fcmp contract ogt <16 x float> %953, %924
-  %955 = select contract <16 x i1> %954, <16 x float> %953, <16 x float> %924
-  %956 = fmul contract <16 x float> %948, %948
-  %957 = fmul contract <16 x float> %955, %955
-  %958 = fadd contract <16 x float> %956, %957
-  br i1 %932, label %970, label %959
+936:
+  %937 = phi contract <16 x float> [ %933, %929 ], [ %935, %934 ]
+  %938 = getelementptr inbounds i8, ptr %837, i64 48
+  %939 = load float, ptr %938, align 4
+  %940 = insertelement <16 x float> poison, float %939, i64 0
+  %941 = shufflevector <16 x float> %940, <16 x float> poison, <16 x i32> zeroinitializer
+  %942 = fsub contract <16 x float> %937, %941
+  %943 = fcmp contract ogt <16 x float> %942, %920
+  %944 = select contract <16 x i1> %943, <16 x float> %942, <16 x float> %920
+  %945 = getelementptr inbounds i8, ptr %837, i64 56
+  %946 = load float, ptr %945, align 4
+  %947 = insertelement <16 x float> poison, float %946, i64 0
+  %948 = shufflevector <16 x float> %947, <16 x float> poison, <16 x i32> zeroinitializer
+  %949 = fsub contract <16 x float> %925, %948
+  %950 = fcmp contract ogt <16 x float> %949, %920
+  %951 = select contract <16 x i1> %950, <16 x float> %949, <16 x float> %920
+  %952 = fmul contract <16 x float> %944, %944
+  %953 = fmul contract <16 x float> %951, %951
+  %954 = fadd contract <16 x float> %952, %953
+  br i1 %928, label %966, label %955
 
-959:
-  %960 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %901)
-  %961 = getelementptr inbounds i8, ptr %841, i64 52
-  %962 = load float, ptr %961, align 4
-  %963 = insertelement <16 x float> poison, float %962, i64 0
-  %964 = shufflevector <16 x float> %963, <16 x float> poison, <16 x i32> zeroinitializer
-  %965 = fsub contract <16 x float> %960, %964
-  %966 = fcmp contract ogt <16 x float> %965, %924
-  %967 = select contract <16 x i1> %966, <16 x float> %965, <16 x float> %924
-  %968 = fmul contract <16 x float> %967, %967
-  %969 = fadd contract <16 x float> %958, %968
-  br label %970
+955:
+  %956 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %897)
+  %957 = getelementptr inbounds i8, ptr %837, i64 52
+  %958 = load float, ptr %957, align 4
+  %959 = insertelement <16 x float> poison, float %958, i64 0
+  %960 = shufflevector <16 x float> %959, <16 x float> poison, <16 x i32> zeroinitializer
+  %961 = fsub contract <16 x float> %956, %960
+  %962 = fcmp contract ogt <16 x float> %961, %920
+  %963 = select contract <16 x i1> %962, <16 x float> %961, <16 x float> %920
+  %964 = fmul contract <16 x float> %963, %963
+  %965 = fadd contract <16 x float> %954, %964
+  br label %966
 
-970:
-  %971 = phi <16 x float> [ %969, %959 ], [ %958, %940 ]
-  %972 = fmul contract <16 x float> %858, %858
-  %973 = fcmp contract olt <16 x float> %971, %972
-  %974 = bitcast <16 x i1> %973 to i16
-  %975 = icmp eq i16 %974, 0
-  br i1 %975, label %1163, label %976
+966:
+  %967 = phi <16 x float> [ %965, %955 ], [ %954, %936 ]
+  %968 = fmul contract <16 x float> %854, %854
+  %969 = fcmp contract olt <16 x float> %967, %968
+  %970 = bitcast <16 x i1> %969 to i16
+  %971 = icmp eq i16 %970, 0
+  br i1 %971, label %1159, label %972
 
-976:
-  %977 = load ptr, ptr %49, align 8
-  %978 = getelementptr inbounds i64, ptr %977, i64 %766
-  %979 = load i64, ptr %978, align 8
-  %980 = getelementptr inbounds i8, ptr %978, i64 8
-  %981 = load i64, ptr %980, align 8
-  %982 = icmp slt i64 %979, %981
-  br i1 %982, label %983, label %986
+972:
+  %973 = load ptr, ptr %49, align 8
+  %974 = getelementptr inbounds i64, ptr %973, i64 %762
+  %975 = load i64, ptr %974, align 8
+  %976 = getelementptr inbounds i8, ptr %974, i64 8
+  %977 = load i64, ptr %976, align 8
+  %978 = icmp slt i64 %975, %977
+  br i1 %978, label %979, label %982
 
-983:
-  %984 = load ptr, ptr %50, align 8
-  %985 = getelementptr inbounds i8, ptr %841, i64 52
-  br label %1064
+979:
+  %980 = load ptr, ptr %50, align 8
+  %981 = getelementptr inbounds i8, ptr %837, i64 52
+  br label %1060
 
-986:
-  %987 = phi <16 x i32> [ zeroinitializer, %976 ], [ %1158, %1154 ]
-  %988 = or <16 x i32> %987, %837
-  %989 = mul nsw i64 %836, %832
-  %990 = add nsw i64 %989, %838
-  %991 = icmp ne <16 x i32> %987, zeroinitializer
-  %992 = bitcast <16 x i1> %991 to i16
-  %993 = zext i16 %992 to i64
-  %994 = and i64 %181, %993
-  %995 = icmp eq i64 %994, 0
-  br i1 %995, label %1163, label %996
+982:
+  %983 = phi <16 x i32> [ zeroinitializer, %972 ], [ %1154, %1150 ]
+  %984 = or <16 x i32> %983, %833
+  %985 = mul nsw i64 %832, %828
+  %986 = add nsw i64 %985, %834
+  %987 = icmp ne <16 x i32> %983, zeroinitializer
+  %988 = bitcast <16 x i1> %987 to i16
+  %989 = zext i16 %988 to i64
+  %990 = and i64 %181, %989
+  %991 = icmp eq i64 %990, 0
+  br i1 %991, label %1159, label %992
 
-996:
-  %997 = load <16 x float>, ptr %833, align 64
-  %998 = load <16 x float>, ptr %834, align 64
-  %999 = and i64 %994, %111
-  %1000 = icmp eq i64 %999, 0
-  br i1 %1000, label %1163, label %1001
+992:
+  %993 = load <16 x float>, ptr %829, align 64
+  %994 = load <16 x float>, ptr %830, align 64
+  %995 = and i64 %990, %111
+  %996 = icmp eq i64 %995, 0
+  br i1 %996, label %1159, label %997
 
-1001:
-  %1002 = phi i64 [ %1060, %1059 ], [ %839, %996 ]
-  %1003 = phi i64 [ %1062, %1059 ], [ %999, %996 ]
-  %1004 = tail call range(i64 0, 65) i64 @llvm.cttz.i64(i64 %1003, i1 true)
-  %1005 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1004
-  %1006 = getelementptr inbounds i8, ptr %1005, i64 8
-  %1007 = load float, ptr %1006, align 8
-  %1008 = getelementptr inbounds i8, ptr %1005, i64 12
-  %1009 = load float, ptr %1008, align 4
-  %1010 = fcmp contract une float %1007, %1009
-  br i1 %1010, label %1011, label %1059
+997:
+  %998 = phi i64 [ %1056, %1055 ], [ %835, %992 ]
+  %999 = phi i64 [ %1058, %1055 ], [ %995, %992 ]
+  %1000 = tail call range(i64 0, 65) i64 @llvm.cttz.i64(i64 %999, i1 true)
+  %1001 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1000
+  %1002 = getelementptr inbounds i8, ptr %1001, i64 8
+  %1003 = load float, ptr %1002, align 8
+  %1004 = getelementptr inbounds i8, ptr %1001, i64 12
+  %1005 = load float, ptr %1004, align 4
+  %1006 = fcmp contract une float %1003, %1005
+  br i1 %1006, label %1007, label %1055
 
-1011:
-  %1012 = load i64, ptr %1005, align 16
-  %1013 = extractelement <16 x float> %997, i64 %1004
-  %1014 = extractelement <16 x float> %998, i64 %1004
-  %1015 = extractelement <16 x float> %580, i64 %1004
-  %1016 = fmul contract float %1014, %1015
-  %1017 = fadd contract float %1013, %1016
-  %1018 = fpext float %1017 to double
-  %1019 = fmul contract double %1018, 1.001000e+00
-  %1020 = icmp sle i64 %1002, %4
-  %1021 = icmp sgt i64 %1002, 0
-  %1022 = and i1 %1020, %1021
-  br i1 %1022, label %1023, label %1047
+1007:
+  %1008 = load i64, ptr %1001, align 16
+  %1009 = extractelement <16 x float> %993, i64 %1000
+  %1010 = extractelement <16 x float> %994, i64 %1000
+  %1011 = extractelement <16 x float> %577, i64 %1000
+  %1012 = fmul contract float %1010, %1011
+  %1013 = fadd contract float %1009, %1012
+  %1014 = fpext float %1013 to double
+  %1015 = fmul contract double %1014, 1.001000e+00
+  %1016 = icmp sle i64 %998, %4
+  %1017 = icmp sgt i64 %998, 0
+  %1018 = and i1 %1016, %1017
+  br i1 %1018, label %1019, label %1043
 
-1023:
-  %1024 = tail call i64 @llvm.umax.i64(i64 %1002, i64 64)
-  %1025 = add nsw i64 %1024, -63
-  br label %1026
+1019:
+  %1020 = tail call i64 @llvm.umax.i64(i64 %998, i64 64)
+  %1021 = add nsw i64 %1020, -63
+  br label %1022
 
-1026:
-  %1027 = phi i64 [ %1028, %1045 ], [ %1002, %1023 ]
-  %1028 = add nsw i64 %1027, -1
-  %1029 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1028
-  %1030 = getelementptr inbounds i8, ptr %1029, i64 16
-  %1031 = load i64, ptr %1030, align 8
-  %1032 = icmp eq i64 %1031, %990
-  br i1 %1032, label %1033, label %1045
+1022:
+  %1023 = phi i64 [ %1024, %1041 ], [ %998, %1019 ]
+  %1024 = add nsw i64 %1023, -1
+  %1025 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1024
+  %1026 = getelementptr inbounds i8, ptr %1025, i64 16
+  %1027 = load i64, ptr %1026, align 8
+  %1028 = icmp eq i64 %1027, %986
+  br i1 %1028, label %1029, label %1041
 
-1033:
-  %1034 = load i64, ptr %1029, align 8
-  %1035 = icmp eq i64 %1034, %1012
-  br i1 %1035, label %1036, label %1045
+1029:
+  %1030 = load i64, ptr %1025, align 8
+  %1031 = icmp eq i64 %1030, %1008
+  br i1 %1031, label %1032, label %1041
+
+1032:
+  %1033 = getelementptr inbounds i8, ptr %1025, i64 12
+  %1034 = load float, ptr %1033, align 4
+  %1035 = fcmp contract une float %1034, %1003
+  br i1 %1035, label %1041, label %1036
 
 1036:
-  %1037 = getelementptr inbounds i8, ptr %1029, i64 12
-  %1038 = load float, ptr %1037, align 4
-  %1039 = fcmp contract une float %1038, %1007
-  br i1 %1039, label %1045, label %1040
+  %1037 = getelementptr inbounds i8, ptr %1025, i64 12
+  store float %1005, ptr %1037, align 4
+  %1038 = getelementptr inbounds i8, ptr %1025, i64 24
+  %1039 = load double, ptr %1038, align 8
+  %1040 = fcmp contract ogt double %1015, %1039
+  br i1 %1040, label %1052, label %1055
 
-1040:
-  %1041 = getelementptr inbounds i8, ptr %1029, i64 12
-  store float %1009, ptr %1041, align 4
-  %1042 = getelementptr inbounds i8, ptr %1029, i64 24
-  %1043 = load double, ptr %1042, align 8
-  %1044 = fcmp contract ogt double %1019, %1043
-  br i1 %1044, label %1056, label %1059
+1041:
+  %1042 = icmp sgt i64 %1023, %1021
+  br i1 %1042, label %1022, label %1043
 
-1045:
-  %1046 = icmp sgt i64 %1027, %1025
-  br i1 %1046, label %1026, label %1047
+1043:
+  %1044 = add i64 %998, 1
+  %1045 = icmp slt i64 %998, %4
+  br i1 %1045, label %1046, label %1055
 
-1047:
-  %1048 = add i64 %1002, 1
-  %1049 = icmp slt i64 %1002, %4
-  br i1 %1049, label %1050, label %1059
+1046:
+  %1047 = getelementptr inbounds %struct.Contact, ptr %3, i64 %998
+  store i64 %1008, ptr %1047, align 8
+  %1048 = getelementptr inbounds i8, ptr %1047, i64 8
+  store float %1003, ptr %1048, align 8
+  %1049 = getelementptr inbounds i8, ptr %1047, i64 12
+  store float %1005, ptr %1049, align 4
+  %1050 = getelementptr inbounds i8, ptr %1047, i64 16
+  store i64 %986, ptr %1050, align 8
+  %1051 = getelementptr inbounds i8, ptr %1047, i64 24
+  br label %1052
 
-1050:
-  %1051 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1002
-  store i64 %1012, ptr %1051, align 8
-  %1052 = getelementptr inbounds i8, ptr %1051, i64 8
-  store float %1007, ptr %1052, align 8
-  %1053 = getelementptr inbounds i8, ptr %1051, i64 12
-  store float %1009, ptr %1053, align 4
-  %1054 = getelementptr inbounds i8, ptr %1051, i64 16
-  store i64 %990, ptr %1054, align 8
-  %1055 = getelementptr inbounds i8, ptr %1051, i64 24
-  br label %1056
+1052:
+  %1053 = phi i64 [ %1044, %1046 ], [ %998, %1036 ]
+  %1054 = phi ptr [ %1051, %1046 ], [ %1038, %1036 ]
+  store double %1015, ptr %1054, align 8
+  br label %1055
 
-1056:
-  %1057 = phi i64 [ %1048, %1050 ], [ %1002, %1040 ]
-  %1058 = phi ptr [ %1055, %1050 ], [ %1042, %1040 ]
-  store double %1019, ptr %1058, align 8
-  br label %1059
+1055:
+  %1056 = phi i64 [ %1053, %1052 ], [ %1044, %1043 ], [ %998, %1036 ], [ %998, %997 ]
+  %1057 = add nsw i64 %999, -1
+  %1058 = and i64 %1057, %999
+  %1059 = icmp eq i64 %1058, 0
+  br i1 %1059, label %1157, label %997
 
-1059:
-  %1060 = phi i64 [ %1057, %1056 ], [ %1048, %1047 ], [ %1002, %1040 ], [ %1002, %1001 ]
-  %1061 = add nsw i64 %1003, -1
-  %1062 = and i64 %1061, %1003
-  %1063 = icmp eq i64 %1062, 0
-  br i1 %1063, label %1161, label %1001
-
-1064:
-  %1065 = phi <16 x i32> [ zeroinitializer, %983 ], [ %1158, %1154 ]
-  %1066 = phi i64 [ %979, %983 ], [ %1159, %1154 ]
-  %1067 = getelementptr inbounds %struct.Sphere, ptr %984, i64 %1066
-  %1068 = getelementptr inbounds i8, ptr %1067, i64 12
-  %1069 = load float, ptr %1068, align 4
-  %1070 = fadd contract float %849, %1069
-  %1071 = insertelement <16 x float> poison, float %1070, i64 0
-  %1072 = shufflevector <16 x float> %1071, <16 x float> poison, <16 x i32> zeroinitializer
-  %1073 = fadd contract <16 x float> %828, %1072
-  %1074 = fcmp contract ogt <16 x float> %1073, zeroinitializer
-  %1075 = select contract <16 x i1> %1074, <16 x float> %1073, <16 x float> zeroinitializer
-  %1076 = load float, ptr %1067, align 4
-  %1077 = getelementptr inbounds i8, ptr %1067, i64 4
-  %1078 = load float, ptr %1077, align 4
-  %1079 = getelementptr inbounds i8, ptr %1067, i64 8
-  %1080 = load float, ptr %1079, align 4
-  %1081 = insertelement <16 x float> poison, float %1076, i64 0
+1060:
+  %1061 = phi <16 x i32> [ zeroinitializer, %979 ], [ %1154, %1150 ]
+  %1062 = phi i64 [ %975, %979 ], [ %1155, %1150 ]
+  %1063 = getelementptr inbounds %struct.Sphere, ptr %980, i64 %1062
+  %1064 = getelementptr inbounds i8, ptr %1063, i64 12
+  %1065 = load float, ptr %1064, align 4
+  %1066 = fadd contract float %845, %1065
+  %1067 = insertelement <16 x float> poison, float %1066, i64 0
+  %1068 = shufflevector <16 x float> %1067, <16 x float> poison, <16 x i32> zeroinitializer
+  %1069 = fadd contract <16 x float> %824, %1068
+  %1070 = fcmp contract ogt <16 x float> %1069, zeroinitializer
+  %1071 = select contract <16 x i1> %1070, <16 x float> %1069, <16 x float> zeroinitializer
+  %1072 = load float, ptr %1063, align 4
+  %1073 = getelementptr inbounds i8, ptr %1063, i64 4
+  %1074 = load float, ptr %1073, align 4
+  %1075 = getelementptr inbounds i8, ptr %1063, i64 8
+  %1076 = load float, ptr %1075, align 4
+  %1077 = insertelement <16 x float> poison, float %1072, i64 0
+  %1078 = shufflevector <16 x float> %1077, <16 x float> poison, <16 x i32> zeroinitializer
+  %1079 = fmul contract <16 x float> %778, %1078
+  %1080 = fadd contract <16 x float> %777, %1079
+  %1081 = insertelement <16 x float> poison, float %1074, i64 0
   %1082 = shufflevector <16 x float> %1081, <16 x float> poison, <16 x i32> zeroinitializer
-  %1083 = fmul contract <16 x float> %782, %1082
-  %1084 = fadd contract <16 x float> %781, %1083
-  %1085 = insertelement <16 x float> poison, float %1078, i64 0
+  %1083 = fmul contract <16 x float> %784, %1082
+  %1084 = fadd contract <16 x float> %1080, %1083
+  %1085 = insertelement <16 x float> poison, float %1076, i64 0
   %1086 = shufflevector <16 x float> %1085, <16 x float> poison, <16 x i32> zeroinitializer
-  %1087 = fmul contract <16 x float> %788, %1086
+  %1087 = fmul contract <16 x float> %790, %1086
   %1088 = fadd contract <16 x float> %1084, %1087
-  %1089 = insertelement <16 x float> poison, float %1080, i64 0
-  %1090 = shufflevector <16 x float> %1089, <16 x float> poison, <16 x i32> zeroinitializer
-  %1091 = fmul contract <16 x float> %794, %1090
-  %1092 = fadd contract <16 x float> %1088, %1091
-  %1093 = fmul contract <16 x float> %802, %1082
-  %1094 = fadd contract <16 x float> %800, %1093
-  %1095 = fmul contract <16 x float> %806, %1086
-  %1096 = fadd contract <16 x float> %1094, %1095
-  %1097 = fmul contract <16 x float> %810, %1090
+  %1089 = fmul contract <16 x float> %798, %1078
+  %1090 = fadd contract <16 x float> %796, %1089
+  %1091 = fmul contract <16 x float> %802, %1082
+  %1092 = fadd contract <16 x float> %1090, %1091
+  %1093 = fmul contract <16 x float> %806, %1086
+  %1094 = fadd contract <16 x float> %1092, %1093
+  %1095 = fmul contract <16 x float> %812, %1078
+  %1096 = fadd contract <16 x float> %810, %1095
+  %1097 = fmul contract <16 x float> %816, %1082
   %1098 = fadd contract <16 x float> %1096, %1097
-  %1099 = fmul contract <16 x float> %816, %1082
-  %1100 = fadd contract <16 x float> %814, %1099
-  %1101 = fmul contract <16 x float> %820, %1086
-  %1102 = fadd contract <16 x float> %1100, %1101
-  %1103 = fmul contract <16 x float> %824, %1090
-  %1104 = fadd contract <16 x float> %1102, %1103
-  %1105 = fmul contract <16 x float> %865, %1092
-  %1106 = fadd contract <16 x float> %862, %1105
-  %1107 = fmul contract <16 x float> %871, %1098
-  %1108 = fadd contract <16 x float> %1107, %1106
-  %1109 = fmul contract <16 x float> %877, %1104
+  %1099 = fmul contract <16 x float> %820, %1086
+  %1100 = fadd contract <16 x float> %1098, %1099
+  %1101 = fmul contract <16 x float> %861, %1088
+  %1102 = fadd contract <16 x float> %858, %1101
+  %1103 = fmul contract <16 x float> %867, %1094
+  %1104 = fadd contract <16 x float> %1103, %1102
+  %1105 = fmul contract <16 x float> %873, %1100
+  %1106 = fadd contract <16 x float> %1105, %1104
+  %1107 = fmul contract <16 x float> %883, %1088
+  %1108 = fadd contract <16 x float> %879, %1107
+  %1109 = fmul contract <16 x float> %889, %1094
   %1110 = fadd contract <16 x float> %1109, %1108
-  %1111 = fmul contract <16 x float> %887, %1092
-  %1112 = fadd contract <16 x float> %883, %1111
-  %1113 = fmul contract <16 x float> %893, %1098
-  %1114 = fadd contract <16 x float> %1113, %1112
-  %1115 = fmul contract <16 x float> %899, %1104
+  %1111 = fmul contract <16 x float> %895, %1100
+  %1112 = fadd contract <16 x float> %1111, %1110
+  %1113 = fmul contract <16 x float> %905, %1088
+  %1114 = fadd contract <16 x float> %901, %1113
+  %1115 = fmul contract <16 x float> %911, %1094
   %1116 = fadd contract <16 x float> %1115, %1114
-  %1117 = fmul contract <16 x float> %909, %1092
-  %1118 = fadd contract <16 x float> %905, %1117
-  %1119 = fmul contract <16 x float> %915, %1098
-  %1120 = fadd contract <16 x float> %1119, %1118
-  %1121 = fmul contract <16 x float> %921, %1104
-  %1122 = fadd contract <16 x float> %1121, %1120
-  %1123 = fmul contract <16 x float> %1110, zeroinitializer
-  %1124 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1122)
-  %1125 = select contract i1 %927, <16 x float> %1122, <16 x float> %1124
-  br i1 %932, label %1126, label %1131
+  %1117 = fmul contract <16 x float> %917, %1100
+  %1118 = fadd contract <16 x float> %1117, %1116
+  %1119 = fmul contract <16 x float> %1106, zeroinitializer
+  %1120 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1118)
+  %1121 = select contract i1 %923, <16 x float> %1118, <16 x float> %1120
+  br i1 %928, label %1122, label %1127
 
-1126:
-  %1127 = fmul contract <16 x float> %1110, %1110
-  %1128 = fmul contract <16 x float> %1116, %1116
-  %1129 = fadd contract <16 x float> %1127, %1128
-  %1130 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %1129)
-  br label %1133
+1122:
+  %1123 = fmul contract <16 x float> %1106, %1106
+  %1124 = fmul contract <16 x float> %1112, %1112
+  %1125 = fadd contract <16 x float> %1123, %1124
+  %1126 = tail call contract noundef <16 x float> @llvm.sqrt.v16f32(<16 x float> %1125)
+  br label %1129
 
-1131:
-  %1132 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1110)
-  br label %1133
+1127:
+  %1128 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1106)
+  br label %1129
 
-1133:
-  %1134 = phi contract <16 x float> [ %1130, %1126 ], [ %1132, %1131 ]
-  %1135 = fsub contract <16 x float> %1134, %945
-  %1136 = fcmp contract ogt <16 x float> %1135, %1123
-  %1137 = select contract <16 x i1> %1136, <16 x float> %1135, <16 x float> %1123
-  %1138 = fsub contract <16 x float> %1125, %952
-  %1139 = fcmp contract ogt <16 x float> %1138, %1123
-  %1140 = select contract <16 x i1> %1139, <16 x float> %1138, <16 x float> %1123
-  %1141 = fmul contract <16 x float> %1137, %1137
-  %1142 = fmul contract <16 x float> %1140, %1140
-  %1143 = fadd contract <16 x float> %1142, %1141
-  br i1 %932, label %1154, label %1144
+1129:
+  %1130 = phi contract <16 x float> [ %1126, %1122 ], [ %1128, %1127 ]
+  %1131 = fsub contract <16 x float> %1130, %941
+  %1132 = fcmp contract ogt <16 x float> %1131, %1119
+  %1133 = select contract <16 x i1> %1132, <16 x float> %1131, <16 x float> %1119
+  %1134 = fsub contract <16 x float> %1121, %948
+  %1135 = fcmp contract ogt <16 x float> %1134, %1119
+  %1136 = select contract <16 x i1> %1135, <16 x float> %1134, <16 x float> %1119
+  %1137 = fmul contract <16 x float> %1133, %1133
+  %1138 = fmul contract <16 x float> %1136, %1136
+  %1139 = fadd contract <16 x float> %1138, %1137
+  br i1 %928, label %1150, label %1140
 
-1144:
-  %1145 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1116)
-  %1146 = load float, ptr %985, align 4
-  %1147 = insertelement <16 x float> poison, float %1146, i64 0
-  %1148 = shufflevector <16 x float> %1147, <16 x float> poison, <16 x i32> zeroinitializer
-  %1149 = fsub contract <16 x float> %1145, %1148
-  %1150 = fcmp contract ogt <16 x float> %1149, %1123
-  %1151 = select contract <16 x i1> %1150, <16 x float> %1149, <16 x float> %1123
-  %1152 = fmul contract <16 x float> %1151, %1151
-  %1153 = fadd contract <16 x float> %1143, %1152
-  br label %1154
+1140:
+  %1141 = tail call contract <16 x float> @llvm.fabs.v16f32(<16 x float> %1112)
+  %1142 = load float, ptr %981, align 4
+  %1143 = insertelement <16 x float> poison, float %1142, i64 0
+  %1144 = shufflevector <16 x float> %1143, <16 x float> poison, <16 x i32> zeroinitializer
+  %1145 = fsub contract <16 x float> %1141, %1144
+  %1146 = fcmp contract ogt <16 x float> %1145, %1119
+  %1147 = select contract <16 x i1> %1146, <16 x float> %1145, <16 x float> %1119
+  %1148 = fmul contract <16 x float> %1147, %1147
+  %1149 = fadd contract <16 x float> %1139, %1148
+  br label %1150
 
-1154:
-  %1155 = phi <16 x float> [ %1153, %1144 ], [ %1143, %1133 ]
-  %1156 = fmul contract <16 x float> %1075, %1075
-  %1157 = fcmp contract olt <16 x float> %1155, %1156
-  %1158 = select <16 x i1> %1157, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1065
-  %1159 = add nsw i64 %1066, 1
-  %1160 = icmp eq i64 %1159, %981
-  br i1 %1160, label %986, label %1064
+1150:
+  %1151 = phi <16 x float> [ %1149, %1140 ], [ %1139, %1129 ]
+  %1152 = fmul contract <16 x float> %1071, %1071
+  %1153 = fcmp contract olt <16 x float> %1151, %1152
+  %1154 = select <16 x i1> %1153, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1061
+  %1155 = add nsw i64 %1062, 1
+  %1156 = icmp eq i64 %1155, %977
+  br i1 %1156, label %982, label %1060
 
-1161:
-  %1162 = load i64, ptr %46, align 8
-  br label %1163
+1157:
+  %1158 = load i64, ptr %46, align 8
+  br label %1159
 
-1163:
-  %1164 = phi i64 [ %836, %835 ], [ %836, %970 ], [ %836, %986 ], [ %836, %996 ], [ %1162, %1161 ]
-  %1165 = phi i64 [ %839, %835 ], [ %839, %970 ], [ %839, %986 ], [ %839, %996 ], [ %1060, %1161 ]
-  %1166 = phi <16 x i32> [ %837, %835 ], [ %837, %970 ], [ %988, %986 ], [ %988, %996 ], [ %988, %1161 ]
-  %1167 = add nuw nsw i64 %838, 1
-  %1168 = icmp slt i64 %1167, %1164
-  br i1 %1168, label %835, label %1169
+1159:
+  %1160 = phi i64 [ %832, %831 ], [ %832, %966 ], [ %832, %982 ], [ %832, %992 ], [ %1158, %1157 ]
+  %1161 = phi i64 [ %835, %831 ], [ %835, %966 ], [ %835, %982 ], [ %835, %992 ], [ %1056, %1157 ]
+  %1162 = phi <16 x i32> [ %833, %831 ], [ %833, %966 ], [ %984, %982 ], [ %984, %992 ], [ %984, %1157 ]
+  %1163 = add nuw nsw i64 %834, 1
+  %1164 = icmp slt i64 %1163, %1160
+  br i1 %1164, label %831, label %1165
 
-1169:
-  %1170 = load i64, ptr %0, align 8
-  br label %1171
+1165:
+  %1166 = load i64, ptr %0, align 8
+  br label %1167
 
-1171:
-  %1172 = phi i64 [ %764, %763 ], [ %764, %773 ], [ %1170, %1169 ]
-  %1173 = phi i64 [ %767, %763 ], [ %767, %773 ], [ %1165, %1169 ]
-  %1174 = phi <16 x i32> [ %765, %763 ], [ %765, %773 ], [ %1166, %1169 ]
-  %1175 = add nuw nsw i64 %766, 1
-  %1176 = icmp slt i64 %766, %1172
-  br i1 %1176, label %763, label %756
+1167:
+  %1168 = phi i64 [ %760, %759 ], [ %760, %769 ], [ %1166, %1165 ]
+  %1169 = phi i64 [ %763, %759 ], [ %763, %769 ], [ %1161, %1165 ]
+  %1170 = phi <16 x i32> [ %761, %759 ], [ %761, %769 ], [ %1162, %1165 ]
+  %1171 = add nuw nsw i64 %762, 1
+  %1172 = icmp slt i64 %762, %1168
+  br i1 %1172, label %759, label %752
 
-1177:
-  %1178 = phi <16 x i32> [ %1762, %1759 ], [ %761, %758 ]
-  %1179 = phi i64 [ %1761, %1759 ], [ 0, %758 ]
-  %1180 = phi i64 [ %1763, %1759 ], [ 0, %758 ]
-  %1181 = phi i64 [ %1760, %1759 ], [ %760, %758 ]
-  %1182 = load ptr, ptr %44, align 8
-  %1183 = getelementptr inbounds %struct.LinkPair, ptr %1182, i64 %1180
-  %1184 = load ptr, ptr %42, align 8
-  %1185 = load i64, ptr %1183, align 8
-  %1186 = getelementptr inbounds %struct.Sphere, ptr %1184, i64 %1185
-  %1187 = getelementptr inbounds i8, ptr %1183, i64 8
-  %1188 = load i64, ptr %1187, align 8
-  %1189 = getelementptr inbounds %struct.Sphere, ptr %1184, i64 %1188
-  %1190 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1185
-  %1191 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1188
-  %1192 = getelementptr inbounds <16 x float>, ptr %20, i64 %1180
-  %1193 = load <16 x float>, ptr %1192, align 64
-  %1194 = load ptr, ptr %51, align 8
-  %1195 = getelementptr inbounds float, ptr %1194, i64 %1180
-  %1196 = load float, ptr %1195, align 4
-  %1197 = insertelement <16 x float> poison, float %1196, i64 0
-  %1198 = shufflevector <16 x float> %1197, <16 x float> poison, <16 x i32> zeroinitializer
-  %1199 = fadd contract <16 x float> %1193, %1198
-  %1200 = load float, ptr %1189, align 4
-  %1201 = getelementptr inbounds i8, ptr %1189, i64 4
-  %1202 = load float, ptr %1201, align 4
-  %1203 = getelementptr inbounds i8, ptr %1189, i64 8
-  %1204 = load float, ptr %1203, align 4
-  %1205 = getelementptr inbounds i8, ptr %1191, i64 576
-  %1206 = load <16 x float>, ptr %1205, align 64
-  %1207 = load <16 x float>, ptr %1191, align 64
-  %1208 = insertelement <16 x float> poison, float %1200, i64 0
-  %1209 = shufflevector <16 x float> %1208, <16 x float> poison, <16 x i32> zeroinitializer
-  %1210 = fmul contract <16 x float> %1209, %1207
-  %1211 = fadd contract <16 x float> %1206, %1210
-  %1212 = getelementptr inbounds i8, ptr %1191, i64 64
-  %1213 = load <16 x float>, ptr %1212, align 64
-  %1214 = insertelement <16 x float> poison, float %1202, i64 0
-  %1215 = shufflevector <16 x float> %1214, <16 x float> poison, <16 x i32> zeroinitializer
-  %1216 = fmul contract <16 x float> %1215, %1213
-  %1217 = fadd contract <16 x float> %1211, %1216
-  %1218 = getelementptr inbounds i8, ptr %1191, i64 128
-  %1219 = load <16 x float>, ptr %1218, align 64
-  %1220 = insertelement <16 x float> poison, float %1204, i64 0
-  %1221 = shufflevector <16 x float> %1220, <16 x float> poison, <16 x i32> zeroinitializer
-  %1222 = fmul contract <16 x float> %1221, %1219
-  %1223 = fadd contract <16 x float> %1217, %1222
-  %1224 = getelementptr inbounds i8, ptr %1191, i64 640
-  %1225 = load <16 x float>, ptr %1224, align 64
-  %1226 = getelementptr inbounds i8, ptr %1191, i64 192
+1173:
+  %1174 = phi <16 x i32> [ %1758, %1755 ], [ %757, %754 ]
+  %1175 = phi i64 [ %1757, %1755 ], [ 0, %754 ]
+  %1176 = phi i64 [ %1759, %1755 ], [ 0, %754 ]
+  %1177 = phi i64 [ %1756, %1755 ], [ %756, %754 ]
+  %1178 = load ptr, ptr %44, align 8
+  %1179 = getelementptr inbounds %struct.LinkPair, ptr %1178, i64 %1176
+  %1180 = load ptr, ptr %42, align 8
+  %1181 = load i64, ptr %1179, align 8
+  %1182 = getelementptr inbounds %struct.Sphere, ptr %1180, i64 %1181
+  %1183 = getelementptr inbounds i8, ptr %1179, i64 8
+  %1184 = load i64, ptr %1183, align 8
+  %1185 = getelementptr inbounds %struct.Sphere, ptr %1180, i64 %1184
+  %1186 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1181
+  %1187 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1184
+  %1188 = getelementptr inbounds <16 x float>, ptr %20, i64 %1176
+  %1189 = load <16 x float>, ptr %1188, align 64
+  %1190 = load ptr, ptr %51, align 8
+  %1191 = getelementptr inbounds float, ptr %1190, i64 %1176
+  %1192 = load float, ptr %1191, align 4
+  %1193 = insertelement <16 x float> poison, float %1192, i64 0
+  %1194 = shufflevector <16 x float> %1193, <16 x float> poison, <16 x i32> zeroinitializer
+  %1195 = fadd contract <16 x float> %1189, %1194
+  %1196 = load float, ptr %1185, align 4
+  %1197 = getelementptr inbounds i8, ptr %1185, i64 4
+  %1198 = load float, ptr %1197, align 4
+  %1199 = getelementptr inbounds i8, ptr %1185, i64 8
+  %1200 = load float, ptr %1199, align 4
+  %1201 = getelementptr inbounds i8, ptr %1187, i64 576
+  %1202 = load <16 x float>, ptr %1201, align 64
+  %1203 = load <16 x float>, ptr %1187, align 64
+  %1204 = insertelement <16 x float> poison, float %1196, i64 0
+  %1205 = shufflevector <16 x float> %1204, <16 x float> poison, <16 x i32> zeroinitializer
+  %1206 = fmul contract <16 x float> %1205, %1203
+  %1207 = fadd contract <16 x float> %1202, %1206
+  %1208 = getelementptr inbounds i8, ptr %1187, i64 64
+  %1209 = load <16 x float>, ptr %1208, align 64
+  %1210 = insertelement <16 x float> poison, float %1198, i64 0
+  %1211 = shufflevector <16 x float> %1210, <16 x float> poison, <16 x i32> zeroinitializer
+  %1212 = fmul contract <16 x float> %1211, %1209
+  %1213 = fadd contract <16 x float> %1207, %1212
+  %1214 = getelementptr inbounds i8, ptr %1187, i64 128
+  %1215 = load <16 x float>, ptr %1214, align 64
+  %1216 = insertelement <16 x float> poison, float %1200, i64 0
+  %1217 = shufflevector <16 x float> %1216, <16 x float> poison, <16 x i32> zeroinitializer
+  %1218 = fmul contract <16 x float> %1217, %1215
+  %1219 = fadd contract <16 x float> %1213, %1218
+  %1220 = getelementptr inbounds i8, ptr %1187, i64 640
+  %1221 = load <16 x float>, ptr %1220, align 64
+  %1222 = getelementptr inbounds i8, ptr %1187, i64 192
+  %1223 = load <16 x float>, ptr %1222, align 64
+  %1224 = fmul contract <16 x float> %1205, %1223
+  %1225 = fadd contract <16 x float> %1221, %1224
+  %1226 = getelementptr inbounds i8, ptr %1187, i64 256
   %1227 = load <16 x float>, ptr %1226, align 64
-  %1228 = fmul contract <16 x float> %1209, %1227
+  %1228 = fmul contract <16 x float> %1211, %1227
   %1229 = fadd contract <16 x float> %1225, %1228
-  %1230 = getelementptr inbounds i8, ptr %1191, i64 256
+  %1230 = getelementptr inbounds i8, ptr %1187, i64 320
   %1231 = load <16 x float>, ptr %1230, align 64
-  %1232 = fmul contract <16 x float> %1215, %1231
+  %1232 = fmul contract <16 x float> %1217, %1231
   %1233 = fadd contract <16 x float> %1229, %1232
-  %1234 = getelementptr inbounds i8, ptr %1191, i64 320
+  %1234 = getelementptr inbounds i8, ptr %1187, i64 704
   %1235 = load <16 x float>, ptr %1234, align 64
-  %1236 = fmul contract <16 x float> %1221, %1235
-  %1237 = fadd contract <16 x float> %1233, %1236
-  %1238 = getelementptr inbounds i8, ptr %1191, i64 704
-  %1239 = load <16 x float>, ptr %1238, align 64
-  %1240 = getelementptr inbounds i8, ptr %1191, i64 384
+  %1236 = getelementptr inbounds i8, ptr %1187, i64 384
+  %1237 = load <16 x float>, ptr %1236, align 64
+  %1238 = fmul contract <16 x float> %1205, %1237
+  %1239 = fadd contract <16 x float> %1235, %1238
+  %1240 = getelementptr inbounds i8, ptr %1187, i64 448
   %1241 = load <16 x float>, ptr %1240, align 64
-  %1242 = fmul contract <16 x float> %1209, %1241
+  %1242 = fmul contract <16 x float> %1211, %1241
   %1243 = fadd contract <16 x float> %1239, %1242
-  %1244 = getelementptr inbounds i8, ptr %1191, i64 448
+  %1244 = getelementptr inbounds i8, ptr %1187, i64 512
   %1245 = load <16 x float>, ptr %1244, align 64
-  %1246 = fmul contract <16 x float> %1215, %1245
+  %1246 = fmul contract <16 x float> %1217, %1245
   %1247 = fadd contract <16 x float> %1243, %1246
-  %1248 = getelementptr inbounds i8, ptr %1191, i64 512
-  %1249 = load <16 x float>, ptr %1248, align 64
-  %1250 = fmul contract <16 x float> %1221, %1249
-  %1251 = fadd contract <16 x float> %1247, %1250
-  %1252 = getelementptr inbounds i8, ptr %1186, i64 12
-  %1253 = load float, ptr %1252, align 4
-  %1254 = getelementptr inbounds i8, ptr %1189, i64 12
-  %1255 = load float, ptr %1254, align 4
-  %1256 = fadd contract float %1253, %1255
-  %1257 = insertelement <16 x float> poison, float %1256, i64 0
-  %1258 = shufflevector <16 x float> %1257, <16 x float> poison, <16 x i32> zeroinitializer
-  %1259 = fadd contract <16 x float> %1199, %1258
-  %1260 = fcmp contract ogt <16 x float> %1259, zeroinitializer
-  %1261 = select contract <16 x i1> %1260, <16 x float> %1259, <16 x float> zeroinitializer
-  %1262 = load float, ptr %1186, align 4
-  %1263 = getelementptr inbounds i8, ptr %1186, i64 4
-  %1264 = load float, ptr %1263, align 4
-  %1265 = getelementptr inbounds i8, ptr %1186, i64 8
-  %1266 = load float, ptr %1265, align 4
-  %1267 = getelementptr inbounds i8, ptr %1190, i64 576
-  %1268 = load <16 x float>, ptr %1267, align 64
-  %1269 = load <16 x float>, ptr %1190, align 64
-  %1270 = insertelement <16 x float> poison, float %1262, i64 0
-  %1271 = shufflevector <16 x float> %1270, <16 x float> poison, <16 x i32> zeroinitializer
-  %1272 = fmul contract <16 x float> %1271, %1269
-  %1273 = fadd contract <16 x float> %1268, %1272
-  %1274 = getelementptr inbounds i8, ptr %1190, i64 64
-  %1275 = load <16 x float>, ptr %1274, align 64
-  %1276 = insertelement <16 x float> poison, float %1264, i64 0
-  %1277 = shufflevector <16 x float> %1276, <16 x float> poison, <16 x i32> zeroinitializer
-  %1278 = fmul contract <16 x float> %1277, %1275
-  %1279 = fadd contract <16 x float> %1273, %1278
-  %1280 = getelementptr inbounds i8, ptr %1190, i64 128
-  %1281 = load <16 x float>, ptr %1280, align 64
-  %1282 = insertelement <16 x float> poison, float %1266, i64 0
-  %1283 = shufflevector <16 x float> %1282, <16 x float> poison, <16 x i32> zeroinitializer
-  %1284 = fmul contract <16 x float> %1283, %1281
-  %1285 = fadd contract <16 x float> %1279, %1284
-  %1286 = getelementptr inbounds i8, ptr %1190, i64 640
-  %1287 = load <16 x float>, ptr %1286, align 64
-  %1288 = getelementptr inbounds i8, ptr %1190, i64 192
+  %1248 = getelementptr inbounds i8, ptr %1182, i64 12
+  %1249 = load float, ptr %1248, align 4
+  %1250 = getelementptr inbounds i8, ptr %1185, i64 12
+  %1251 = load float, ptr %1250, align 4
+  %1252 = fadd contract float %1249, %1251
+  %1253 = insertelement <16 x float> poison, float %1252, i64 0
+  %1254 = shufflevector <16 x float> %1253, <16 x float> poison, <16 x i32> zeroinitializer
+  %1255 = fadd contract <16 x float> %1195, %1254
+  %1256 = fcmp contract ogt <16 x float> %1255, zeroinitializer
+  %1257 = select contract <16 x i1> %1256, <16 x float> %1255, <16 x float> zeroinitializer
+  %1258 = load float, ptr %1182, align 4
+  %1259 = getelementptr inbounds i8, ptr %1182, i64 4
+  %1260 = load float, ptr %1259, align 4
+  %1261 = getelementptr inbounds i8, ptr %1182, i64 8
+  %1262 = load float, ptr %1261, align 4
+  %1263 = getelementptr inbounds i8, ptr %1186, i64 576
+  %1264 = load <16 x float>, ptr %1263, align 64
+  %1265 = load <16 x float>, ptr %1186, align 64
+  %1266 = insertelement <16 x float> poison, float %1258, i64 0
+  %1267 = shufflevector <16 x float> %1266, <16 x float> poison, <16 x i32> zeroinitializer
+  %1268 = fmul contract <16 x float> %1267, %1265
+  %1269 = fadd contract <16 x float> %1264, %1268
+  %1270 = getelementptr inbounds i8, ptr %1186, i64 64
+  %1271 = load <16 x float>, ptr %1270, align 64
+  %1272 = insertelement <16 x float> poison, float %1260, i64 0
+  %1273 = shufflevector <16 x float> %1272, <16 x float> poison, <16 x i32> zeroinitializer
+  %1274 = fmul contract <16 x float> %1273, %1271
+  %1275 = fadd contract <16 x float> %1269, %1274
+  %1276 = getelementptr inbounds i8, ptr %1186, i64 128
+  %1277 = load <16 x float>, ptr %1276, align 64
+  %1278 = insertelement <16 x float> poison, float %1262, i64 0
+  %1279 = shufflevector <16 x float> %1278, <16 x float> poison, <16 x i32> zeroinitializer
+  %1280 = fmul contract <16 x float> %1279, %1277
+  %1281 = fadd contract <16 x float> %1275, %1280
+  %1282 = getelementptr inbounds i8, ptr %1186, i64 640
+  %1283 = load <16 x float>, ptr %1282, align 64
+  %1284 = getelementptr inbounds i8, ptr %1186, i64 192
+  %1285 = load <16 x float>, ptr %1284, align 64
+  %1286 = fmul contract <16 x float> %1267, %1285
+  %1287 = fadd contract <16 x float> %1283, %1286
+  %1288 = getelementptr inbounds i8, ptr %1186, i64 256
   %1289 = load <16 x float>, ptr %1288, align 64
-  %1290 = fmul contract <16 x float> %1271, %1289
+  %1290 = fmul contract <16 x float> %1273, %1289
   %1291 = fadd contract <16 x float> %1287, %1290
-  %1292 = getelementptr inbounds i8, ptr %1190, i64 256
+  %1292 = getelementptr inbounds i8, ptr %1186, i64 320
   %1293 = load <16 x float>, ptr %1292, align 64
-  %1294 = fmul contract <16 x float> %1277, %1293
+  %1294 = fmul contract <16 x float> %1279, %1293
   %1295 = fadd contract <16 x float> %1291, %1294
-  %1296 = getelementptr inbounds i8, ptr %1190, i64 320
+  %1296 = getelementptr inbounds i8, ptr %1186, i64 704
   %1297 = load <16 x float>, ptr %1296, align 64
-  %1298 = fmul contract <16 x float> %1283, %1297
-  %1299 = fadd contract <16 x float> %1295, %1298
-  %1300 = getelementptr inbounds i8, ptr %1190, i64 704
-  %1301 = load <16 x float>, ptr %1300, align 64
-  %1302 = getelementptr inbounds i8, ptr %1190, i64 384
+  %1298 = getelementptr inbounds i8, ptr %1186, i64 384
+  %1299 = load <16 x float>, ptr %1298, align 64
+  %1300 = fmul contract <16 x float> %1267, %1299
+  %1301 = fadd contract <16 x float> %1297, %1300
+  %1302 = getelementptr inbounds i8, ptr %1186, i64 448
   %1303 = load <16 x float>, ptr %1302, align 64
-  %1304 = fmul contract <16 x float> %1271, %1303
+  %1304 = fmul contract <16 x float> %1273, %1303
   %1305 = fadd contract <16 x float> %1301, %1304
-  %1306 = getelementptr inbounds i8, ptr %1190, i64 448
+  %1306 = getelementptr inbounds i8, ptr %1186, i64 512
   %1307 = load <16 x float>, ptr %1306, align 64
-  %1308 = fmul contract <16 x float> %1277, %1307
+  %1308 = fmul contract <16 x float> %1279, %1307
   %1309 = fadd contract <16 x float> %1305, %1308
-  %1310 = getelementptr inbounds i8, ptr %1190, i64 512
-  %1311 = load <16 x float>, ptr %1310, align 64
-  %1312 = fmul contract <16 x float> %1283, %1311
-  %1313 = fadd contract <16 x float> %1309, %1312
-  %1314 = fsub contract <16 x float> %1285, %1223
-  %1315 = fsub contract <16 x float> %1299, %1237
-  %1316 = fsub contract <16 x float> %1313, %1251
-  %1317 = fmul contract <16 x float> %1314, %1314
-  %1318 = fmul contract <16 x float> %1315, %1315
-  %1319 = fadd contract <16 x float> %1317, %1318
-  %1320 = fmul contract <16 x float> %1316, %1316
-  %1321 = fadd contract <16 x float> %1319, %1320
-  %1322 = fmul contract <16 x float> %1261, %1261
-  %1323 = fcmp contract olt <16 x float> %1321, %1322
-  %1324 = bitcast <16 x i1> %1323 to i16
-  %1325 = icmp eq i16 %1324, 0
-  br i1 %1325, label %1759, label %1326
+  %1310 = fsub contract <16 x float> %1281, %1219
+  %1311 = fsub contract <16 x float> %1295, %1233
+  %1312 = fsub contract <16 x float> %1309, %1247
+  %1313 = fmul contract <16 x float> %1310, %1310
+  %1314 = fmul contract <16 x float> %1311, %1311
+  %1315 = fadd contract <16 x float> %1313, %1314
+  %1316 = fmul contract <16 x float> %1312, %1312
+  %1317 = fadd contract <16 x float> %1315, %1316
+  %1318 = fmul contract <16 x float> %1257, %1257
+  %1319 = fcmp contract olt <16 x float> %1317, %1318
+  %1320 = bitcast <16 x i1> %1319 to i16
+  %1321 = icmp eq i16 %1320, 0
+  br i1 %1321, label %1755, label %1322
 
-1326:
+1322:
   call void @llvm.lifetime.start.p0(i64 16, ptr nonnull %14)
-  store i64 %1185, ptr %14, align 16
-  store i64 %1188, ptr %52, align 8
-  br label %1333
+  store i64 %1181, ptr %14, align 16
+  store i64 %1184, ptr %52, align 8
+  br label %1329
 
-1327:
-  %1328 = getelementptr inbounds i8, ptr %1183, i64 16
-  %1329 = load i64, ptr %1328, align 8
-  %1330 = getelementptr inbounds i8, ptr %1183, i64 24
-  %1331 = load i64, ptr %1330, align 8
-  %1332 = icmp slt i64 %1329, %1331
-  br i1 %1332, label %1419, label %1416
+1323:
+  %1324 = getelementptr inbounds i8, ptr %1179, i64 16
+  %1325 = load i64, ptr %1324, align 8
+  %1326 = getelementptr inbounds i8, ptr %1179, i64 24
+  %1327 = load i64, ptr %1326, align 8
+  %1328 = icmp slt i64 %1325, %1327
+  br i1 %1328, label %1415, label %1412
 
-1333:
-  %1334 = phi i64 [ %1179, %1326 ], [ %1413, %1412 ]
-  %1335 = phi i64 [ 0, %1326 ], [ %1414, %1412 ]
-  %1336 = getelementptr inbounds i8, ptr %14, i64 %1335
-  %1337 = load i64, ptr %1336, align 8
-  %1338 = shl nuw i64 1, %1337
-  %1339 = and i64 %1338, %1334
-  %1340 = icmp eq i64 %1339, 0
-  br i1 %1340, label %1341, label %1412
+1329:
+  %1330 = phi i64 [ %1175, %1322 ], [ %1409, %1408 ]
+  %1331 = phi i64 [ 0, %1322 ], [ %1410, %1408 ]
+  %1332 = getelementptr inbounds i8, ptr %14, i64 %1331
+  %1333 = load i64, ptr %1332, align 8
+  %1334 = shl nuw i64 1, %1333
+  %1335 = and i64 %1334, %1330
+  %1336 = icmp eq i64 %1335, 0
+  br i1 %1336, label %1337, label %1408
 
-1341:
-  %1342 = or i64 %1338, %1334
-  %1343 = load ptr, ptr %53, align 8
-  %1344 = getelementptr inbounds i64, ptr %1343, i64 %1337
-  %1345 = load i64, ptr %1344, align 8
-  %1346 = getelementptr i8, ptr %1344, i64 8
-  %1347 = load i64, ptr %1346, align 8
-  %1348 = icmp slt i64 %1345, %1347
-  br i1 %1348, label %1349, label %1412
+1337:
+  %1338 = or i64 %1334, %1330
+  %1339 = load ptr, ptr %53, align 8
+  %1340 = getelementptr inbounds i64, ptr %1339, i64 %1333
+  %1341 = load i64, ptr %1340, align 8
+  %1342 = getelementptr i8, ptr %1340, i64 8
+  %1343 = load i64, ptr %1342, align 8
+  %1344 = icmp slt i64 %1341, %1343
+  br i1 %1344, label %1345, label %1408
 
-1349:
-  %1350 = load ptr, ptr %54, align 8
-  %1351 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1337
-  %1352 = getelementptr inbounds i8, ptr %1351, i64 576
-  %1353 = load <16 x float>, ptr %1352, align 64
-  %1354 = load <16 x float>, ptr %1351, align 64
-  %1355 = getelementptr inbounds i8, ptr %1351, i64 64
+1345:
+  %1346 = load ptr, ptr %54, align 8
+  %1347 = getelementptr inbounds %struct.Frame, ptr %27, i64 %1333
+  %1348 = getelementptr inbounds i8, ptr %1347, i64 576
+  %1349 = load <16 x float>, ptr %1348, align 64
+  %1350 = load <16 x float>, ptr %1347, align 64
+  %1351 = getelementptr inbounds i8, ptr %1347, i64 64
+  %1352 = load <16 x float>, ptr %1351, align 64
+  %1353 = getelementptr inbounds i8, ptr %1347, i64 128
+  %1354 = load <16 x float>, ptr %1353, align 64
+  %1355 = getelementptr inbounds i8, ptr %1347, i64 640
   %1356 = load <16 x float>, ptr %1355, align 64
-  %1357 = getelementptr inbounds i8, ptr %1351, i64 128
+  %1357 = getelementptr inbounds i8, ptr %1347, i64 192
   %1358 = load <16 x float>, ptr %1357, align 64
-  %1359 = getelementptr inbounds i8, ptr %1351, i64 640
+  %1359 = getelementptr inbounds i8, ptr %1347, i64 256
   %1360 = load <16 x float>, ptr %1359, align 64
-  %1361 = getelementptr inbounds i8, ptr %1351, i64 192
+  %1361 = getelementptr inbounds i8, ptr %1347, i64 320
   %1362 = load <16 x float>, ptr %1361, align 64
-  %1363 = getelementptr inbounds i8, ptr %1351, i64 256
+  %1363 = getelementptr inbounds i8, ptr %1347, i64 704
   %1364 = load <16 x float>, ptr %1363, align 64
-  %1365 = getelementptr inbounds i8, ptr %1351, i64 320
+  %1365 = getelementptr inbounds i8, ptr %1347, i64 384
   %1366 = load <16 x float>, ptr %1365, align 64
-  %1367 = getelementptr inbounds i8, ptr %1351, i64 704
+  %1367 = getelementptr inbounds i8, ptr %1347, i64 448
   %1368 = load <16 x float>, ptr %1367, align 64
-  %1369 = getelementptr inbounds i8, ptr %1351, i64 384
+  %1369 = getelementptr inbounds i8, ptr %1347, i64 512
   %1370 = load <16 x float>, ptr %1369, align 64
-  %1371 = getelementptr inbounds i8, ptr %1351, i64 448
-  %1372 = load <16 x float>, ptr %1371, align 64
-  %1373 = getelementptr inbounds i8, ptr %1351, i64 512
-  %1374 = load <16 x float>, ptr %1373, align 64
-  br label %1375
+  br label %1371
 
-1375:
-  %1376 = phi i64 [ %1345, %1349 ], [ %1410, %1375 ]
-  %1377 = getelementptr inbounds %struct.Part, ptr %1350, i64 %1376
+1371:
+  %1372 = phi i64 [ %1341, %1345 ], [ %1406, %1371 ]
+  %1373 = getelementptr inbounds %struct.Part, ptr %1346, i64 %1372
+  %1374 = load float, ptr %1373, align 4
+  %1375 = getelementptr inbounds i8, ptr %1373, i64 4
+  %1376 = load float, ptr %1375, align 4
+  %1377 = getelementptr inbounds i8, ptr %1373, i64 8
   %1378 = load float, ptr %1377, align 4
-  %1379 = getelementptr inbounds i8, ptr %1377, i64 4
-  %1380 = load float, ptr %1379, align 4
-  %1381 = getelementptr inbounds i8, ptr %1377, i64 8
-  %1382 = load float, ptr %1381, align 4
-  %1383 = insertelement <16 x float> poison, float %1378, i64 0
+  %1379 = insertelement <16 x float> poison, float %1374, i64 0
+  %1380 = shufflevector <16 x float> %1379, <16 x float> poison, <16 x i32> zeroinitializer
+  %1381 = fmul contract <16 x float> %1380, %1350
+  %1382 = fadd contract <16 x float> %1349, %1381
+  %1383 = insertelement <16 x float> poison, float %1376, i64 0
   %1384 = shufflevector <16 x float> %1383, <16 x float> poison, <16 x i32> zeroinitializer
-  %1385 = fmul contract <16 x float> %1384, %1354
-  %1386 = fadd contract <16 x float> %1353, %1385
-  %1387 = insertelement <16 x float> poison, float %1380, i64 0
+  %1385 = fmul contract <16 x float> %1384, %1352
+  %1386 = fadd contract <16 x float> %1382, %1385
+  %1387 = insertelement <16 x float> poison, float %1378, i64 0
   %1388 = shufflevector <16 x float> %1387, <16 x float> poison, <16 x i32> zeroinitializer
-  %1389 = fmul contract <16 x float> %1388, %1356
+  %1389 = fmul contract <16 x float> %1388, %1354
   %1390 = fadd contract <16 x float> %1386, %1389
-  %1391 = insertelement <16 x float> poison, float %1382, i64 0
-  %1392 = shufflevector <16 x float> %1391, <16 x float> poison, <16 x i32> zeroinitializer
-  %1393 = fmul contract <16 x float> %1392, %1358
-  %1394 = fadd contract <16 x float> %1390, %1393
-  %1395 = fmul contract <16 x float> %1384, %1362
-  %1396 = fadd contract <16 x float> %1360, %1395
-  %1397 = fmul contract <16 x float> %1388, %1364
-  %1398 = fadd contract <16 x float> %1396, %1397
-  %1399 = fmul contract <16 x float> %1392, %1366
+  %1391 = fmul contract <16 x float> %1380, %1358
+  %1392 = fadd contract <16 x float> %1356, %1391
+  %1393 = fmul contract <16 x float> %1384, %1360
+  %1394 = fadd contract <16 x float> %1392, %1393
+  %1395 = fmul contract <16 x float> %1388, %1362
+  %1396 = fadd contract <16 x float> %1394, %1395
+  %1397 = fmul contract <16 x float> %1380, %1366
+  %1398 = fadd contract <16 x float> %1364, %1397
+  %1399 = fmul contract <16 x float> %1384, %1368
   %1400 = fadd contract <16 x float> %1398, %1399
-  %1401 = fmul contract <16 x float> %1384, %1370
-  %1402 = fadd contract <16 x float> %1368, %1401
-  %1403 = fmul contract <16 x float> %1388, %1372
-  %1404 = fadd contract <16 x float> %1402, %1403
-  %1405 = fmul contract <16 x float> %1392, %1374
-  %1406 = fadd contract <16 x float> %1404, %1405
-  %1407 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1376
-  store <16 x float> %1394, ptr %1407, align 64
-  %1408 = getelementptr inbounds i8, ptr %1407, i64 64
-  store <16 x float> %1400, ptr %1408, align 64
-  %1409 = getelementptr inbounds i8, ptr %1407, i64 128
-  store <16 x float> %1406, ptr %1409, align 64
-  %1410 = add nsw i64 %1376, 1
-  %1411 = icmp eq i64 %1410, %1347
-  br i1 %1411, label %1412, label %1375
+  %1401 = fmul contract <16 x float> %1388, %1370
+  %1402 = fadd contract <16 x float> %1400, %1401
+  %1403 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1372
+  store <16 x float> %1390, ptr %1403, align 64
+  %1404 = getelementptr inbounds i8, ptr %1403, i64 64
+  store <16 x float> %1396, ptr %1404, align 64
+  %1405 = getelementptr inbounds i8, ptr %1403, i64 128
+  store <16 x float> %1402, ptr %1405, align 64
+  %1406 = add nsw i64 %1372, 1
+  %1407 = icmp eq i64 %1406, %1343
+  br i1 %1407, label %1408, label %1371
+
+1408:
+  %1409 = phi i64 [ %1330, %1329 ], [ %1338, %1337 ], [ %1338, %1371 ]
+  %1410 = add nuw nsw i64 %1331, 8
+  %1411 = icmp eq i64 %1410, 16
+  br i1 %1411, label %1323, label %1329
 
 1412:
-  %1413 = phi i64 [ %1334, %1333 ], [ %1342, %1341 ], [ %1342, %1375 ]
-  %1414 = add nuw nsw i64 %1335, 8
-  %1415 = icmp eq i64 %1414, 16
-  br i1 %1415, label %1327, label %1333
-
-1416:
-  %1417 = phi i64 [ %1181, %1327 ], [ %1754, %1751 ]
-  %1418 = phi <16 x i32> [ %1178, %1327 ], [ %1755, %1751 ]
+  %1413 = phi i64 [ %1177, %1323 ], [ %1750, %1747 ]
+  %1414 = phi <16 x i32> [ %1174, %1323 ], [ %1751, %1747 ]
   call void @llvm.lifetime.end.p0(i64 16, ptr nonnull %14)
-  br label %1759
+  br label %1755
 
-1419:
-  %1420 = phi <16 x i32> [ %1755, %1751 ], [ %1178, %1327 ]
-  %1421 = phi i64 [ %1756, %1751 ], [ %1329, %1327 ]
-  %1422 = phi i1 [ %1752, %1751 ], [ false, %1327 ]
-  %1423 = phi i64 [ %1753, %1751 ], [ -1, %1327 ]
-  %1424 = phi i64 [ %1754, %1751 ], [ %1181, %1327 ]
-  %1425 = load ptr, ptr %55, align 8
-  %1426 = getelementptr inbounds %struct.PartPair, ptr %1425, i64 %1421
-  %1427 = load ptr, ptr %54, align 8
-  %1428 = load i64, ptr %1426, align 8
-  %1429 = getelementptr inbounds %struct.Part, ptr %1427, i64 %1428
-  %1430 = getelementptr inbounds i8, ptr %1426, i64 8
-  %1431 = load i64, ptr %1430, align 8
-  %1432 = getelementptr inbounds %struct.Part, ptr %1427, i64 %1431
-  %1433 = icmp eq i64 %1428, %1423
-  br i1 %1433, label %1462, label %1434
+1415:
+  %1416 = phi <16 x i32> [ %1751, %1747 ], [ %1174, %1323 ]
+  %1417 = phi i64 [ %1752, %1747 ], [ %1325, %1323 ]
+  %1418 = phi i1 [ %1748, %1747 ], [ false, %1323 ]
+  %1419 = phi i64 [ %1749, %1747 ], [ -1, %1323 ]
+  %1420 = phi i64 [ %1750, %1747 ], [ %1177, %1323 ]
+  %1421 = load ptr, ptr %55, align 8
+  %1422 = getelementptr inbounds %struct.PartPair, ptr %1421, i64 %1417
+  %1423 = load ptr, ptr %54, align 8
+  %1424 = load i64, ptr %1422, align 8
+  %1425 = getelementptr inbounds %struct.Part, ptr %1423, i64 %1424
+  %1426 = getelementptr inbounds i8, ptr %1422, i64 8
+  %1427 = load i64, ptr %1426, align 8
+  %1428 = getelementptr inbounds %struct.Part, ptr %1423, i64 %1427
+  %1429 = icmp eq i64 %1424, %1419
+  br i1 %1429, label %1458, label %1430
 
-1434:
-  %1435 = getelementptr inbounds i8, ptr %1429, i64 28
-  %1436 = load float, ptr %1435, align 4
-  %1437 = load float, ptr %1254, align 4
-  %1438 = fadd contract float %1436, %1437
-  %1439 = insertelement <16 x float> poison, float %1438, i64 0
-  %1440 = shufflevector <16 x float> %1439, <16 x float> poison, <16 x i32> zeroinitializer
-  %1441 = fadd contract <16 x float> %1199, %1440
-  %1442 = fcmp contract ogt <16 x float> %1441, zeroinitializer
-  %1443 = select contract <16 x i1> %1442, <16 x float> %1441, <16 x float> zeroinitializer
-  %1444 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1428
-  %1445 = load <16 x float>, ptr %1444, align 64
-  %1446 = fsub contract <16 x float> %1445, %1223
-  %1447 = getelementptr inbounds i8, ptr %1444, i64 64
-  %1448 = load <16 x float>, ptr %1447, align 64
-  %1449 = fsub contract <16 x float> %1448, %1237
-  %1450 = getelementptr inbounds i8, ptr %1444, i64 128
-  %1451 = load <16 x float>, ptr %1450, align 64
-  %1452 = fsub contract <16 x float> %1451, %1251
-  %1453 = fmul contract <16 x float> %1446, %1446
-  %1454 = fmul contract <16 x float> %1449, %1449
-  %1455 = fadd contract <16 x float> %1453, %1454
-  %1456 = fmul contract <16 x float> %1452, %1452
-  %1457 = fadd contract <16 x float> %1455, %1456
-  %1458 = fmul contract <16 x float> %1443, %1443
-  %1459 = fcmp contract olt <16 x float> %1457, %1458
-  %1460 = bitcast <16 x i1> %1459 to i16
-  %1461 = icmp eq i16 %1460, 0
-  br i1 %1461, label %1751, label %1463
+1430:
+  %1431 = getelementptr inbounds i8, ptr %1425, i64 28
+  %1432 = load float, ptr %1431, align 4
+  %1433 = load float, ptr %1250, align 4
+  %1434 = fadd contract float %1432, %1433
+  %1435 = insertelement <16 x float> poison, float %1434, i64 0
+  %1436 = shufflevector <16 x float> %1435, <16 x float> poison, <16 x i32> zeroinitializer
+  %1437 = fadd contract <16 x float> %1195, %1436
+  %1438 = fcmp contract ogt <16 x float> %1437, zeroinitializer
+  %1439 = select contract <16 x i1> %1438, <16 x float> %1437, <16 x float> zeroinitializer
+  %1440 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1424
+  %1441 = load <16 x float>, ptr %1440, align 64
+  %1442 = fsub contract <16 x float> %1441, %1219
+  %1443 = getelementptr inbounds i8, ptr %1440, i64 64
+  %1444 = load <16 x float>, ptr %1443, align 64
+  %1445 = fsub contract <16 x float> %1444, %1233
+  %1446 = getelementptr inbounds i8, ptr %1440, i64 128
+  %1447 = load <16 x float>, ptr %1446, align 64
+  %1448 = fsub contract <16 x float> %1447, %1247
+  %1449 = fmul contract <16 x float> %1442, %1442
+  %1450 = fmul contract <16 x float> %1445, %1445
+  %1451 = fadd contract <16 x float> %1449, %1450
+  %1452 = fmul contract <16 x float> %1448, %1448
+  %1453 = fadd contract <16 x float> %1451, %1452
+  %1454 = fmul contract <16 x float> %1439, %1439
+  %1455 = fcmp contract olt <16 x float> %1453, %1454
+  %1456 = bitcast <16 x i1> %1455 to i16
+  %1457 = icmp eq i16 %1456, 0
+  br i1 %1457, label %1747, label %1459
 
-1462:
-  br i1 %1422, label %1463, label %1751
+1458:
+  br i1 %1418, label %1459, label %1747
 
-1463:
-  %1464 = phi i64 [ %1428, %1434 ], [ %1423, %1462 ]
-  %1465 = getelementptr inbounds i8, ptr %1429, i64 28
-  %1466 = load float, ptr %1465, align 4
-  %1467 = getelementptr inbounds i8, ptr %1432, i64 28
-  %1468 = load float, ptr %1467, align 4
-  %1469 = fadd contract float %1466, %1468
-  %1470 = insertelement <16 x float> poison, float %1469, i64 0
-  %1471 = shufflevector <16 x float> %1470, <16 x float> poison, <16 x i32> zeroinitializer
-  %1472 = fadd contract <16 x float> %1199, %1471
-  %1473 = fcmp contract ogt <16 x float> %1472, zeroinitializer
-  %1474 = select contract <16 x i1> %1473, <16 x float> %1472, <16 x float> zeroinitializer
-  %1475 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1428
-  %1476 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1431
-  %1477 = load <16 x float>, ptr %1475, align 64
-  %1478 = load <16 x float>, ptr %1476, align 64
-  %1479 = fsub contract <16 x float> %1477, %1478
-  %1480 = getelementptr inbounds i8, ptr %1475, i64 64
-  %1481 = load <16 x float>, ptr %1480, align 64
-  %1482 = getelementptr inbounds i8, ptr %1476, i64 64
-  %1483 = load <16 x float>, ptr %1482, align 64
-  %1484 = fsub contract <16 x float> %1481, %1483
-  %1485 = getelementptr inbounds i8, ptr %1475, i64 128
-  %1486 = load <16 x float>, ptr %1485, align 64
-  %1487 = getelementptr inbounds i8, ptr %1476, i64 128
-  %1488 = load <16 x float>, ptr %1487, align 64
-  %1489 = fsub contract <16 x float> %1486, %1488
-  %1490 = fmul contract <16 x float> %1479, %1479
-  %1491 = fmul contract <16 x float> %1484, %1484
-  %1492 = fadd contract <16 x float> %1490, %1491
-  %1493 = fmul contract <16 x float> %1489, %1489
-  %1494 = fadd contract <16 x float> %1492, %1493
-  %1495 = fmul contract <16 x float> %1474, %1474
-  %1496 = fcmp contract olt <16 x float> %1494, %1495
-  %1497 = bitcast <16 x i1> %1496 to i16
-  %1498 = icmp eq i16 %1497, 0
-  br i1 %1498, label %1751, label %1499
+1459:
+  %1460 = phi i64 [ %1424, %1430 ], [ %1419, %1458 ]
+  %1461 = getelementptr inbounds i8, ptr %1425, i64 28
+  %1462 = load float, ptr %1461, align 4
+  %1463 = getelementptr inbounds i8, ptr %1428, i64 28
+  %1464 = load float, ptr %1463, align 4
+  %1465 = fadd contract float %1462, %1464
+  %1466 = insertelement <16 x float> poison, float %1465, i64 0
+  %1467 = shufflevector <16 x float> %1466, <16 x float> poison, <16 x i32> zeroinitializer
+  %1468 = fadd contract <16 x float> %1195, %1467
+  %1469 = fcmp contract ogt <16 x float> %1468, zeroinitializer
+  %1470 = select contract <16 x i1> %1469, <16 x float> %1468, <16 x float> zeroinitializer
+  %1471 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1424
+  %1472 = getelementptr inbounds [192 x %struct.Point], ptr %13, i64 0, i64 %1427
+  %1473 = load <16 x float>, ptr %1471, align 64
+  %1474 = load <16 x float>, ptr %1472, align 64
+  %1475 = fsub contract <16 x float> %1473, %1474
+  %1476 = getelementptr inbounds i8, ptr %1471, i64 64
+  %1477 = load <16 x float>, ptr %1476, align 64
+  %1478 = getelementptr inbounds i8, ptr %1472, i64 64
+  %1479 = load <16 x float>, ptr %1478, align 64
+  %1480 = fsub contract <16 x float> %1477, %1479
+  %1481 = getelementptr inbounds i8, ptr %1471, i64 128
+  %1482 = load <16 x float>, ptr %1481, align 64
+  %1483 = getelementptr inbounds i8, ptr %1472, i64 128
+  %1484 = load <16 x float>, ptr %1483, align 64
+  %1485 = fsub contract <16 x float> %1482, %1484
+  %1486 = fmul contract <16 x float> %1475, %1475
+  %1487 = fmul contract <16 x float> %1480, %1480
+  %1488 = fadd contract <16 x float> %1486, %1487
+  %1489 = fmul contract <16 x float> %1485, %1485
+  %1490 = fadd contract <16 x float> %1488, %1489
+  %1491 = fmul contract <16 x float> %1470, %1470
+  %1492 = fcmp contract olt <16 x float> %1490, %1491
+  %1493 = bitcast <16 x i1> %1492 to i16
+  %1494 = icmp eq i16 %1493, 0
+  br i1 %1494, label %1747, label %1495
 
-1499:
-  %1500 = getelementptr inbounds i8, ptr %1429, i64 24
-  %1501 = load float, ptr %1500, align 4
-  %1502 = getelementptr inbounds i8, ptr %1432, i64 24
-  %1503 = load float, ptr %1502, align 4
-  %1504 = fadd contract float %1501, %1503
-  %1505 = insertelement <16 x float> poison, float %1504, i64 0
-  %1506 = shufflevector <16 x float> %1505, <16 x float> poison, <16 x i32> zeroinitializer
-  %1507 = fadd contract <16 x float> %1199, %1506
-  %1508 = fcmp contract ogt <16 x float> %1507, zeroinitializer
-  %1509 = select contract <16 x i1> %1508, <16 x float> %1507, <16 x float> zeroinitializer
-  %1510 = getelementptr inbounds i8, ptr %1429, i64 12
-  %1511 = load float, ptr %1510, align 4
-  %1512 = fmul contract float %1511, %1511
-  %1513 = getelementptr inbounds i8, ptr %1429, i64 16
+1495:
+  %1496 = getelementptr inbounds i8, ptr %1425, i64 24
+  %1497 = load float, ptr %1496, align 4
+  %1498 = getelementptr inbounds i8, ptr %1428, i64 24
+  %1499 = load float, ptr %1498, align 4
+  %1500 = fadd contract float %1497, %1499
+  %1501 = insertelement <16 x float> poison, float %1500, i64 0
+  %1502 = shufflevector <16 x float> %1501, <16 x float> poison, <16 x i32> zeroinitializer
+  %1503 = fadd contract <16 x float> %1195, %1502
+  %1504 = fcmp contract ogt <16 x float> %1503, zeroinitializer
+  %1505 = select contract <16 x i1> %1504, <16 x float> %1503, <16 x float> zeroinitializer
+  %1506 = getelementptr inbounds i8, ptr %1425, i64 12
+  %1507 = load float, ptr %1506, align 4
+  %1508 = fmul contract float %1507, %1507
+  %1509 = getelementptr inbounds i8, ptr %1425, i64 16
+  %1510 = load float, ptr %1509, align 4
+  %1511 = fmul contract float %1510, %1510
+  %1512 = fadd contract float %1508, %1511
+  %1513 = getelementptr inbounds i8, ptr %1425, i64 20
   %1514 = load float, ptr %1513, align 4
   %1515 = fmul contract float %1514, %1514
   %1516 = fadd contract float %1512, %1515
-  %1517 = getelementptr inbounds i8, ptr %1429, i64 20
+  %1517 = getelementptr inbounds i8, ptr %1428, i64 12
   %1518 = load float, ptr %1517, align 4
   %1519 = fmul contract float %1518, %1518
-  %1520 = fadd contract float %1516, %1519
-  %1521 = getelementptr inbounds i8, ptr %1432, i64 12
-  %1522 = load float, ptr %1521, align 4
-  %1523 = fmul contract float %1522, %1522
-  %1524 = getelementptr inbounds i8, ptr %1432, i64 16
+  %1520 = getelementptr inbounds i8, ptr %1428, i64 16
+  %1521 = load float, ptr %1520, align 4
+  %1522 = fmul contract float %1521, %1521
+  %1523 = fadd contract float %1519, %1522
+  %1524 = getelementptr inbounds i8, ptr %1428, i64 20
   %1525 = load float, ptr %1524, align 4
   %1526 = fmul contract float %1525, %1525
   %1527 = fadd contract float %1523, %1526
-  %1528 = getelementptr inbounds i8, ptr %1432, i64 20
-  %1529 = load float, ptr %1528, align 4
-  %1530 = fmul contract float %1529, %1529
-  %1531 = fadd contract float %1527, %1530
-  %1532 = fcmp contract oeq float %1520, 0.000000e+00
-  %1533 = fcmp contract oeq float %1531, 0.000000e+00
-  %1534 = select i1 %1532, i1 %1533, i1 false
-  br i1 %1534, label %1666, label %1535
+  %1528 = fcmp contract oeq float %1516, 0.000000e+00
+  %1529 = fcmp contract oeq float %1527, 0.000000e+00
+  %1530 = select i1 %1528, i1 %1529, i1 false
+  br i1 %1530, label %1662, label %1531
 
-1535:
-  %1536 = fmul contract <16 x float> %1477, zeroinitializer
-  %1537 = fadd contract <16 x float> %1536, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
-  %1538 = insertelement <16 x float> poison, float %1511, i64 0
-  %1539 = shufflevector <16 x float> %1538, <16 x float> poison, <16 x i32> zeroinitializer
-  %1540 = fmul contract <16 x float> %1269, %1539
+1531:
+  %1532 = fmul contract <16 x float> %1473, zeroinitializer
+  %1533 = fadd contract <16 x float> %1532, <float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01, float 5.000000e-01>
+  %1534 = insertelement <16 x float> poison, float %1507, i64 0
+  %1535 = shufflevector <16 x float> %1534, <16 x float> poison, <16 x i32> zeroinitializer
+  %1536 = fmul contract <16 x float> %1265, %1535
+  %1537 = insertelement <16 x float> poison, float %1510, i64 0
+  %1538 = shufflevector <16 x float> %1537, <16 x float> poison, <16 x i32> zeroinitializer
+  %1539 = fmul contract <16 x float> %1271, %1538
+  %1540 = fadd contract <16 x float> %1536, %1539
   %1541 = insertelement <16 x float> poison, float %1514, i64 0
   %1542 = shufflevector <16 x float> %1541, <16 x float> poison, <16 x i32> zeroinitializer
-  %1543 = fmul contract <16 x float> %1275, %1542
+  %1543 = fmul contract <16 x float> %1277, %1542
   %1544 = fadd contract <16 x float> %1540, %1543
-  %1545 = insertelement <16 x float> poison, float %1518, i64 0
-  %1546 = shufflevector <16 x float> %1545, <16 x float> poison, <16 x i32> zeroinitializer
-  %1547 = fmul contract <16 x float> %1281, %1546
-  %1548 = fadd contract <16 x float> %1544, %1547
-  %1549 = fmul contract <16 x float> %1289, %1539
-  %1550 = fmul contract <16 x float> %1293, %1542
-  %1551 = fadd contract <16 x float> %1549, %1550
-  %1552 = fmul contract <16 x float> %1297, %1546
-  %1553 = fadd contract <16 x float> %1551, %1552
-  %1554 = fmul contract <16 x float> %1303, %1539
-  %1555 = fmul contract <16 x float> %1307, %1542
-  %1556 = fadd contract <16 x float> %1554, %1555
-  %1557 = fmul contract <16 x float> %1311, %1546
-  %1558 = fadd contract <16 x float> %1556, %1557
-  %1559 = insertelement <16 x float> poison, float %1522, i64 0
-  %1560 = shufflevector <16 x float> %1559, <16 x float> poison, <16 x i32> zeroinitializer
-  %1561 = fmul contract <16 x float> %1207, %1560
+  %1545 = fmul contract <16 x float> %1285, %1535
+  %1546 = fmul contract <16 x float> %1289, %1538
+  %1547 = fadd contract <16 x float> %1545, %1546
+  %1548 = fmul contract <16 x float> %1293, %1542
+  %1549 = fadd contract <16 x float> %1547, %1548
+  %1550 = fmul contract <16 x float> %1299, %1535
+  %1551 = fmul contract <16 x float> %1303, %1538
+  %1552 = fadd contract <16 x float> %1550, %1551
+  %1553 = fmul contract <16 x float> %1307, %1542
+  %1554 = fadd contract <16 x float> %1552, %1553
+  %1555 = insertelement <16 x float> poison, float %1518, i64 0
+  %1556 = shufflevector <16 x float> %1555, <16 x float> poison, <16 x i32> zeroinitializer
+  %1557 = fmul contract <16 x float> %1203, %1556
+  %1558 = insertelement <16 x float> poison, float %1521, i64 0
+  %1559 = shufflevector <16 x float> %1558, <16 x float> poison, <16 x i32> zeroinitializer
+  %1560 = fmul contract <16 x float> %1209, %1559
+  %1561 = fadd contract <16 x float> %1557, %1560
   %1562 = insertelement <16 x float> poison, float %1525, i64 0
   %1563 = shufflevector <16 x float> %1562, <16 x float> poison, <16 x i32> zeroinitializer
-  %1564 = fmul contract <16 x float> %1213, %1563
+  %1564 = fmul contract <16 x float> %1215, %1563
   %1565 = fadd contract <16 x float> %1561, %1564
-  %1566 = insertelement <16 x float> poison, float %1529, i64 0
-  %1567 = shufflevector <16 x float> %1566, <16 x float> poison, <16 x i32> zeroinitializer
-  %1568 = fmul contract <16 x float> %1219, %1567
-  %1569 = fadd contract <16 x float> %1565, %1568
-  %1570 = fmul contract <16 x float> %1227, %1560
-  %1571 = fmul contract <16 x float> %1231, %1563
-  %1572 = fadd contract <16 x float> %1570, %1571
-  %1573 = fmul contract <16 x float> %1235, %1567
-  %1574 = fadd contract <16 x float> %1572, %1573
-  %1575 = fmul contract <16 x float> %1241, %1560
-  %1576 = fmul contract <16 x float> %1245, %1563
-  %1577 = fadd contract <16 x float> %1575, %1576
-  %1578 = fmul contract <16 x float> %1249, %1567
-  %1579 = fadd contract <16 x float> %1577, %1578
-  %1580 = fcmp contract ogt float %1520, 0.000000e+00
-  %1581 = fdiv contract float 1.000000e+00, %1520
-  %1582 = select contract i1 %1580, float %1581, float 0.000000e+00
-  %1583 = fcmp contract ogt float %1531, 0.000000e+00
-  %1584 = fdiv contract float 1.000000e+00, %1531
-  %1585 = select contract i1 %1583, float %1584, float 0.000000e+00
-  %1586 = fmul contract <16 x float> %1548, %1569
-  %1587 = fmul contract <16 x float> %1553, %1574
-  %1588 = fadd contract <16 x float> %1586, %1587
-  %1589 = fmul contract <16 x float> %1558, %1579
-  %1590 = fadd contract <16 x float> %1589, %1588
-  %1591 = fmul contract <16 x float> %1479, %1548
-  %1592 = fmul contract <16 x float> %1484, %1553
-  %1593 = fadd contract <16 x float> %1591, %1592
-  %1594 = fmul contract <16 x float> %1489, %1558
-  %1595 = fadd contract <16 x float> %1594, %1593
-  %1596 = fmul contract <16 x float> %1479, %1569
-  %1597 = fmul contract <16 x float> %1484, %1574
-  %1598 = fadd contract <16 x float> %1596, %1597
-  %1599 = fmul contract <16 x float> %1489, %1579
-  %1600 = fadd contract <16 x float> %1599, %1598
-  %1601 = fmul contract float %1520, %1531
-  %1602 = insertelement <16 x float> poison, float %1601, i64 0
-  %1603 = shufflevector <16 x float> %1602, <16 x float> poison, <16 x i32> zeroinitializer
-  %1604 = fmul contract <16 x float> %1590, %1590
-  %1605 = fsub contract <16 x float> %1603, %1604
-  %1606 = fmul contract float %1520, 0x3E7AD7F2A0000000
-  %1607 = fmul contract float %1606, %1531
-  %1608 = insertelement <16 x float> poison, float %1607, i64 0
+  %1566 = fmul contract <16 x float> %1223, %1556
+  %1567 = fmul contract <16 x float> %1227, %1559
+  %1568 = fadd contract <16 x float> %1566, %1567
+  %1569 = fmul contract <16 x float> %1231, %1563
+  %1570 = fadd contract <16 x float> %1568, %1569
+  %1571 = fmul contract <16 x float> %1237, %1556
+  %1572 = fmul contract <16 x float> %1241, %1559
+  %1573 = fadd contract <16 x float> %1571, %1572
+  %1574 = fmul contract <16 x float> %1245, %1563
+  %1575 = fadd contract <16 x float> %1573, %1574
+  %1576 = fcmp contract ogt float %1516, 0.000000e+00
+  %1577 = fdiv contract float 1.000000e+00, %1516
+  %1578 = select contract i1 %1576, float %1577, float 0.000000e+00
+  %1579 = fcmp contract ogt float %1527, 0.000000e+00
+  %1580 = fdiv contract float 1.000000e+00, %1527
+  %1581 = select contract i1 %1579, float %1580, float 0.000000e+00
+  %1582 = fmul contract <16 x float> %1544, %1565
+  %1583 = fmul contract <16 x float> %1549, %1570
+  %1584 = fadd contract <16 x float> %1582, %1583
+  %1585 = fmul contract <16 x float> %1554, %1575
+  %1586 = fadd contract <16 x float> %1585, %1584
+  %1587 = fmul contract <16 x float> %1475, %1544
+  %1588 = fmul contract <16 x float> %1480, %1549
+  %1589 = fadd contract <16 x float> %1587, %1588
+  %1590 = fmul contract <16 x float> %1485, %1554
+  %1591 = fadd contract <16 x float> %1590, %1589
+  %1592 = fmul contract <16 x float> %1475, %1565
+  %1593 = fmul contract <16 x float> %1480, %1570
+  %1594 = fadd contract <16 x float> %1592, %1593
+  %1595 = fmul contract <16 x float> %1485, %1575
+  %1596 = fadd contract <16 x float> %1595, %1594
+  %1597 = fmul contract float %1516, %1527
+  %1598 = insertelement <16 x float> poison, float %1597, i64 0
+  %1599 = shufflevector <16 x float> %1598, <16 x float> poison, <16 x i32> zeroinitializer
+  %1600 = fmul contract <16 x float> %1586, %1586
+  %1601 = fsub contract <16 x float> %1599, %1600
+  %1602 = fmul contract float %1516, 0x3E7AD7F2A0000000
+  %1603 = fmul contract float %1602, %1527
+  %1604 = insertelement <16 x float> poison, float %1603, i64 0
+  %1605 = shufflevector <16 x float> %1604, <16 x float> poison, <16 x i32> zeroinitializer
+  %1606 = fcmp contract ogt <16 x float> %1601, %1605
+  %1607 = fmul contract <16 x float> %1586, %1596
+  %1608 = insertelement <16 x float> poison, float %1527, i64 0
   %1609 = shufflevector <16 x float> %1608, <16 x float> poison, <16 x i32> zeroinitializer
-  %1610 = fcmp contract ogt <16 x float> %1605, %1609
-  %1611 = fmul contract <16 x float> %1590, %1600
-  %1612 = insertelement <16 x float> poison, float %1531, i64 0
-  %1613 = shufflevector <16 x float> %1612, <16 x float> poison, <16 x i32> zeroinitializer
-  %1614 = fmul contract <16 x float> %1613, %1595
-  %1615 = fsub contract <16 x float> %1611, %1614
-  %1616 = select contract <16 x i1> %1610, <16 x float> %1605, <16 x float> %1537
-  %1617 = fdiv contract <16 x float> %1615, %1616
-  %1618 = fneg contract <16 x float> %1537
-  %1619 = fcmp contract ogt <16 x float> %1617, %1618
-  %1620 = select contract <16 x i1> %1619, <16 x float> %1617, <16 x float> %1618
-  %1621 = fcmp contract olt <16 x float> %1620, %1537
-  %1622 = select contract <16 x i1> %1621, <16 x float> %1620, <16 x float> %1537
-  %1623 = select contract <16 x i1> %1610, <16 x float> %1622, <16 x float> %1618
-  %1624 = fmul contract <16 x float> %1590, %1623
-  %1625 = fadd contract <16 x float> %1600, %1624
-  %1626 = insertelement <16 x float> poison, float %1585, i64 0
-  %1627 = shufflevector <16 x float> %1626, <16 x float> poison, <16 x i32> zeroinitializer
-  %1628 = fmul contract <16 x float> %1627, %1625
-  %1629 = fcmp contract ogt <16 x float> %1628, %1618
-  %1630 = select contract <16 x i1> %1629, <16 x float> %1628, <16 x float> %1618
-  %1631 = fcmp contract olt <16 x float> %1630, %1537
-  %1632 = select contract <16 x i1> %1631, <16 x float> %1630, <16 x float> %1537
-  %1633 = fmul contract <16 x float> %1590, %1632
-  %1634 = fsub contract <16 x float> %1633, %1595
-  %1635 = insertelement <16 x float> poison, float %1582, i64 0
-  %1636 = shufflevector <16 x float> %1635, <16 x float> poison, <16 x i32> zeroinitializer
-  %1637 = fmul contract <16 x float> %1636, %1634
-  %1638 = fcmp contract ogt <16 x float> %1637, %1618
-  %1639 = select contract <16 x i1> %1638, <16 x float> %1637, <16 x float> %1618
-  %1640 = fcmp contract olt <16 x float> %1639, %1537
-  %1641 = select contract <16 x i1> %1640, <16 x float> %1639, <16 x float> %1537
-  %1642 = fmul contract <16 x float> %1590, %1641
-  %1643 = fadd contract <16 x float> %1600, %1642
-  %1644 = fmul contract <16 x float> %1627, %1643
-  %1645 = fcmp contract ogt <16 x float> %1644, %1618
-  %1646 = select contract <16 x i1> %1645, <16 x float> %1644, <16 x float> %1618
-  %1647 = fcmp contract olt <16 x float> %1646, %1537
-  %1648 = select contract <16 x i1> %1647, <16 x float> %1646, <16 x float> %1537
-  %1649 = fmul contract <16 x float> %1548, %1641
-  %1650 = fadd contract <16 x float> %1479, %1649
-  %1651 = fmul contract <16 x float> %1569, %1648
+  %1610 = fmul contract <16 x float> %1609, %1591
+  %1611 = fsub contract <16 x float> %1607, %1610
+  %1612 = select contract <16 x i1> %1606, <16 x float> %1601, <16 x float> %1533
+  %1613 = fdiv contract <16 x float> %1611, %1612
+  %1614 = fneg contract <16 x float> %1533
+  %1615 = fcmp contract ogt <16 x float> %1613, %1614
+  %1616 = select contract <16 x i1> %1615, <16 x float> %1613, <16 x float> %1614
+  %1617 = fcmp contract olt <16 x float> %1616, %1533
+  %1618 = select contract <16 x i1> %1617, <16 x float> %1616, <16 x float> %1533
+  %1619 = select contract <16 x i1> %1606, <16 x float> %1618, <16 x float> %1614
+  %1620 = fmul contract <16 x float> %1586, %1619
+  %1621 = fadd contract <16 x float> %1596, %1620
+  %1622 = insertelement <16 x float> poison, float %1581, i64 0
+  %1623 = shufflevector <16 x float> %1622, <16 x float> poison, <16 x i32> zeroinitializer
+  %1624 = fmul contract <16 x float> %1623, %1621
+  %1625 = fcmp contract ogt <16 x float> %1624, %1614
+  %1626 = select contract <16 x i1> %1625, <16 x float> %1624, <16 x float> %1614
+  %1627 = fcmp contract olt <16 x float> %1626, %1533
+  %1628 = select contract <16 x i1> %1627, <16 x float> %1626, <16 x float> %1533
+  %1629 = fmul contract <16 x float> %1586, %1628
+  %1630 = fsub contract <16 x float> %1629, %1591
+  %1631 = insertelement <16 x float> poison, float %1578, i64 0
+  %1632 = shufflevector <16 x float> %1631, <16 x float> poison, <16 x i32> zeroinitializer
+  %1633 = fmul contract <16 x float> %1632, %1630
+  %1634 = fcmp contract ogt <16 x float> %1633, %1614
+  %1635 = select contract <16 x i1> %1634, <16 x float> %1633, <16 x float> %1614
+  %1636 = fcmp contract olt <16 x float> %1635, %1533
+  %1637 = select contract <16 x i1> %1636, <16 x float> %1635, <16 x float> %1533
+  %1638 = fmul contract <16 x float> %1586, %1637
+  %1639 = fadd contract <16 x float> %1596, %1638
+  %1640 = fmul contract <16 x float> %1623, %1639
+  %1641 = fcmp contract ogt <16 x float> %1640, %1614
+  %1642 = select contract <16 x i1> %1641, <16 x float> %1640, <16 x float> %1614
+  %1643 = fcmp contract olt <16 x float> %1642, %1533
+  %1644 = select contract <16 x i1> %1643, <16 x float> %1642, <16 x float> %1533
+  %1645 = fmul contract <16 x float> %1544, %1637
+  %1646 = fadd contract <16 x float> %1475, %1645
+  %1647 = fmul contract <16 x float> %1565, %1644
+  %1648 = fsub contract <16 x float> %1646, %1647
+  %1649 = fmul contract <16 x float> %1549, %1637
+  %1650 = fadd contract <16 x float> %1480, %1649
+  %1651 = fmul contract <16 x float> %1570, %1644
   %1652 = fsub contract <16 x float> %1650, %1651
-  %1653 = fmul contract <16 x float> %1553, %1641
-  %1654 = fadd contract <16 x float> %1484, %1653
-  %1655 = fmul contract <16 x float> %1574, %1648
+  %1653 = fmul contract <16 x float> %1554, %1637
+  %1654 = fadd contract <16 x float> %1485, %1653
+  %1655 = fmul contract <16 x float> %1575, %1644
   %1656 = fsub contract <16 x float> %1654, %1655
-  %1657 = fmul contract <16 x float> %1558, %1641
-  %1658 = fadd contract <16 x float> %1489, %1657
-  %1659 = fmul contract <16 x float> %1579, %1648
-  %1660 = fsub contract <16 x float> %1658, %1659
-  %1661 = fmul contract <16 x float> %1652, %1652
-  %1662 = fmul contract <16 x float> %1656, %1656
-  %1663 = fadd contract <16 x float> %1661, %1662
-  %1664 = fmul contract <16 x float> %1660, %1660
-  %1665 = fadd contract <16 x float> %1664, %1663
-  br label %1666
+  %1657 = fmul contract <16 x float> %1648, %1648
+  %1658 = fmul contract <16 x float> %1652, %1652
+  %1659 = fadd contract <16 x float> %1657, %1658
+  %1660 = fmul contract <16 x float> %1656, %1656
+  %1661 = fadd contract <16 x float> %1660, %1659
+  br label %1662
 
-1666:
-  %1667 = phi <16 x float> [ %1665, %1535 ], [ %1494, %1499 ]
-  %1668 = fmul contract <16 x float> %1509, %1509
-  %1669 = fcmp contract olt <16 x float> %1667, %1668
-  %1670 = select <16 x i1> %1669, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1420
-  %1671 = load i64, ptr %0, align 8
-  %1672 = load i64, ptr %46, align 8
-  %1673 = mul nsw i64 %1672, %1671
-  %1674 = add nsw i64 %1673, %1421
-  %1675 = bitcast <16 x i1> %1669 to i16
-  %1676 = zext i16 %1675 to i64
-  %1677 = and i64 %181, %1676
-  %1678 = icmp eq i64 %1677, 0
-  br i1 %1678, label %1751, label %1679
+1662:
+  %1663 = phi <16 x float> [ %1661, %1531 ], [ %1490, %1495 ]
+  %1664 = fmul contract <16 x float> %1505, %1505
+  %1665 = fcmp contract olt <16 x float> %1663, %1664
+  %1666 = select <16 x i1> %1665, <16 x i32> <i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1, i32 -1>, <16 x i32> %1416
+  %1667 = load i64, ptr %0, align 8
+  %1668 = load i64, ptr %46, align 8
+  %1669 = mul nsw i64 %1668, %1667
+  %1670 = add nsw i64 %1669, %1417
+  %1671 = bitcast <16 x i1> %1665 to i16
+  %1672 = zext i16 %1671 to i64
+  %1673 = and i64 %181, %1672
+  %1674 = icmp eq i64 %1673, 0
+  br i1 %1674, label %1747, label %1675
 
-1679:
-  %1680 = load i64, ptr %1187, align 8
-  %1681 = load i64, ptr %1183, align 8
-  %1682 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %1680, i64 %1681
-  %1683 = load <16 x float>, ptr %1682, align 64
-  %1684 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %1680, i64 %1681
-  %1685 = load <16 x float>, ptr %1684, align 64
-  %1686 = and i64 %1677, %111
-  %1687 = icmp eq i64 %1686, 0
-  br i1 %1687, label %1751, label %1688
+1675:
+  %1676 = load i64, ptr %1183, align 8
+  %1677 = load i64, ptr %1179, align 8
+  %1678 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %29, i64 0, i64 %1676, i64 %1677
+  %1679 = load <16 x float>, ptr %1678, align 64
+  %1680 = getelementptr inbounds [17 x [17 x <16 x float>]], ptr %28, i64 0, i64 %1676, i64 %1677
+  %1681 = load <16 x float>, ptr %1680, align 64
+  %1682 = and i64 %1673, %111
+  %1683 = icmp eq i64 %1682, 0
+  br i1 %1683, label %1747, label %1684
 
-1688:
-  %1689 = phi i64 [ %1747, %1746 ], [ %1424, %1679 ]
-  %1690 = phi i64 [ %1749, %1746 ], [ %1686, %1679 ]
-  %1691 = tail call range(i64 0, 65) i64 @llvm.cttz.i64(i64 %1690, i1 true)
-  %1692 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1691
-  %1693 = getelementptr inbounds i8, ptr %1692, i64 8
-  %1694 = load float, ptr %1693, align 8
-  %1695 = getelementptr inbounds i8, ptr %1692, i64 12
-  %1696 = load float, ptr %1695, align 4
-  %1697 = fcmp contract une float %1694, %1696
-  br i1 %1697, label %1698, label %1746
+1684:
+  %1685 = phi i64 [ %1743, %1742 ], [ %1420, %1675 ]
+  %1686 = phi i64 [ %1745, %1742 ], [ %1682, %1675 ]
+  %1687 = tail call range(i64 0, 65) i64 @llvm.cttz.i64(i64 %1686, i1 true)
+  %1688 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1687
+  %1689 = getelementptr inbounds i8, ptr %1688, i64 8
+  %1690 = load float, ptr %1689, align 8
+  %1691 = getelementptr inbounds i8, ptr %1688, i64 12
+  %1692 = load float, ptr %1691, align 4
+  %1693 = fcmp contract une float %1690, %1692
+  br i1 %1693, label %1694, label %1742
 
-1698:
-  %1699 = load i64, ptr %1692, align 16
-  %1700 = extractelement <16 x float> %1683, i64 %1691
-  %1701 = extractelement <16 x float> %1685, i64 %1691
-  %1702 = extractelement <16 x float> %580, i64 %1691
-  %1703 = fmul contract float %1701, %1702
-  %1704 = fadd contract float %1700, %1703
-  %1705 = fpext float %1704 to double
-  %1706 = fmul contract double %1705, 1.001000e+00
-  %1707 = icmp sle i64 %1689, %4
-  %1708 = icmp sgt i64 %1689, 0
-  %1709 = and i1 %1707, %1708
-  br i1 %1709, label %1710, label %1734
+1694:
+  %1695 = load i64, ptr %1688, align 16
+  %1696 = extractelement <16 x float> %1679, i64 %1687
+  %1697 = extractelement <16 x float> %1681, i64 %1687
+  %1698 = extractelement <16 x float> %577, i64 %1687
+  %1699 = fmul contract float %1697, %1698
+  %1700 = fadd contract float %1696, %1699
+  %1701 = fpext float %1700 to double
+  %1702 = fmul contract double %1701, 1.001000e+00
+  %1703 = icmp sle i64 %1685, %4
+  %1704 = icmp sgt i64 %1685, 0
+  %1705 = and i1 %1703, %1704
+  br i1 %1705, label %1706, label %1730
 
-1710:
-  %1711 = tail call i64 @llvm.umax.i64(i64 %1689, i64 64)
-  %1712 = add nsw i64 %1711, -63
-  br label %1713
+1706:
+  %1707 = tail call i64 @llvm.umax.i64(i64 %1685, i64 64)
+  %1708 = add nsw i64 %1707, -63
+  br label %1709
 
-1713:
-  %1714 = phi i64 [ %1715, %1732 ], [ %1689, %1710 ]
-  %1715 = add nsw i64 %1714, -1
-  %1716 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1715
-  %1717 = getelementptr inbounds i8, ptr %1716, i64 16
-  %1718 = load i64, ptr %1717, align 8
-  %1719 = icmp eq i64 %1718, %1674
-  br i1 %1719, label %1720, label %1732
+1709:
+  %1710 = phi i64 [ %1711, %1728 ], [ %1685, %1706 ]
+  %1711 = add nsw i64 %1710, -1
+  %1712 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1711
+  %1713 = getelementptr inbounds i8, ptr %1712, i64 16
+  %1714 = load i64, ptr %1713, align 8
+  %1715 = icmp eq i64 %1714, %1670
+  br i1 %1715, label %1716, label %1728
 
-1720:
-  %1721 = load i64, ptr %1716, align 8
-  %1722 = icmp eq i64 %1721, %1699
-  br i1 %1722, label %1723, label %1732
+1716:
+  %1717 = load i64, ptr %1712, align 8
+  %1718 = icmp eq i64 %1717, %1695
+  br i1 %1718, label %1719, label %1728
+
+1719:
+  %1720 = getelementptr inbounds i8, ptr %1712, i64 12
+  %1721 = load float, ptr %1720, align 4
+  %1722 = fcmp contract une float %1721, %1690
+  br i1 %1722, label %1728, label %1723
 
 1723:
-  %1724 = getelementptr inbounds i8, ptr %1716, i64 12
-  %1725 = load float, ptr %1724, align 4
-  %1726 = fcmp contract une float %1725, %1694
-  br i1 %1726, label %1732, label %1727
+  %1724 = getelementptr inbounds i8, ptr %1712, i64 12
+  store float %1692, ptr %1724, align 4
+  %1725 = getelementptr inbounds i8, ptr %1712, i64 24
+  %1726 = load double, ptr %1725, align 8
+  %1727 = fcmp contract ogt double %1702, %1726
+  br i1 %1727, label %1739, label %1742
 
-1727:
-  %1728 = getelementptr inbounds i8, ptr %1716, i64 12
-  store float %1696, ptr %1728, align 4
-  %1729 = getelementptr inbounds i8, ptr %1716, i64 24
-  %1730 = load double, ptr %1729, align 8
-  %1731 = fcmp contract ogt double %1706, %1730
-  br i1 %1731, label %1743, label %1746
+1728:
+  %1729 = icmp sgt i64 %1710, %1708
+  br i1 %1729, label %1709, label %1730
 
-1732:
-  %1733 = icmp sgt i64 %1714, %1712
-  br i1 %1733, label %1713, label %1734
+1730:
+  %1731 = add i64 %1685, 1
+  %1732 = icmp slt i64 %1685, %4
+  br i1 %1732, label %1733, label %1742
 
-1734:
-  %1735 = add i64 %1689, 1
-  %1736 = icmp slt i64 %1689, %4
-  br i1 %1736, label %1737, label %1746
+1733:
+  %1734 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1685
+  store i64 %1695, ptr %1734, align 8
+  %1735 = getelementptr inbounds i8, ptr %1734, i64 8
+  store float %1690, ptr %1735, align 8
+  %1736 = getelementptr inbounds i8, ptr %1734, i64 12
+  store float %1692, ptr %1736, align 4
+  %1737 = getelementptr inbounds i8, ptr %1734, i64 16
+  store i64 %1670, ptr %1737, align 8
+  %1738 = getelementptr inbounds i8, ptr %1734, i64 24
+  br label %1739
 
-1737:
-  %1738 = getelementptr inbounds %struct.Contact, ptr %3, i64 %1689
-  store i64 %1699, ptr %1738, align 8
-  %1739 = getelementptr inbounds i8, ptr %1738, i64 8
-  store float %1694, ptr %1739, align 8
-  %1740 = getelementptr inbounds i8, ptr %1738, i64 12
-  store float %1696, ptr %1740, align 4
-  %1741 = getelementptr inbounds i8, ptr %1738, i64 16
-  store i64 %1674, ptr %1741, align 8
-  %1742 = getelementptr inbounds i8, ptr %1738, i64 24
-  br label %1743
+1739:
+  %1740 = phi i64 [ %1731, %1733 ], [ %1685, %1723 ]
+  %1741 = phi ptr [ %1738, %1733 ], [ %1725, %1723 ]
+  store double %1702, ptr %1741, align 8
+  br label %1742
 
-1743:
-  %1744 = phi i64 [ %1735, %1737 ], [ %1689, %1727 ]
-  %1745 = phi ptr [ %1742, %1737 ], [ %1729, %1727 ]
-  store double %1706, ptr %1745, align 8
-  br label %1746
+1742:
+  %1743 = phi i64 [ %1740, %1739 ], [ %1731, %1730 ], [ %1685, %1723 ], [ %1685, %1684 ]
+  %1744 = add nsw i64 %1686, -1
+  %1745 = and i64 %1744, %1686
+  %1746 = icmp eq i64 %1745, 0
+  br i1 %1746, label %1747, label %1684
 
-1746:
-  %1747 = phi i64 [ %1744, %1743 ], [ %1735, %1734 ], [ %1689, %1727 ], [ %1689, %1688 ]
-  %1748 = add nsw i64 %1690, -1
-  %1749 = and i64 %1748, %1690
-  %1750 = icmp eq i64 %1749, 0
-  br i1 %1750, label %1751, label %1688
+1747:
+  %1748 = phi i1 [ true, %1459 ], [ false, %1458 ], [ true, %1662 ], [ true, %1675 ], [ false, %1430 ], [ true, %1742 ]
+  %1749 = phi i64 [ %1460, %1459 ], [ %1419, %1458 ], [ %1460, %1662 ], [ %1460, %1675 ], [ %1424, %1430 ], [ %1460, %1742 ]
+  %1750 = phi i64 [ %1420, %1459 ], [ %1420, %1458 ], [ %1420, %1662 ], [ %1420, %1675 ], [ %1420, %1430 ], [ %1743, %1742 ]
+  %1751 = phi <16 x i32> [ %1416, %1459 ], [ %1416, %1458 ], [ %1666, %1662 ], [ %1666, %1675 ], [ %1416, %1430 ], [ %1666, %1742 ]
+  %1752 = add nsw i64 %1417, 1
+  %1753 = load i64, ptr %1326, align 8
+  %1754 = icmp slt i64 %1752, %1753
+  br i1 %1754, label %1415, label %1412
 
-1751:
-  %1752 = phi i1 [ true, %1463 ], [ false, %1462 ], [ true, %1666 ], [ true, %1679 ], [ false, %1434 ], [ true, %1746 ]
-  %1753 = phi i64 [ %1464, %1463 ], [ %1423, %1462 ], [ %1464, %1666 ], [ %1464, %1679 ], [ %1428, %1434 ], [ %1464, %1746 ]
-  %1754 = phi i64 [ %1424, %1463 ], [ %1424, %1462 ], [ %1424, %1666 ], [ %1424, %1679 ], [ %1424, %1434 ], [ %1747, %1746 ]
-  %1755 = phi <16 x i32> [ %1420, %1463 ], [ %1420, %1462 ], [ %1670, %1666 ], [ %1670, %1679 ], [ %1420, %1434 ], [ %1670, %1746 ]
-  %1756 = add nsw i64 %1421, 1
-  %1757 = load i64, ptr %1330, align 8
-  %1758 = icmp slt i64 %1756, %1757
-  br i1 %1758, label %1419, label %1416
+1755:
+  %1756 = phi i64 [ %1413, %1412 ], [ %1177, %1173 ]
+  %1757 = phi i64 [ %1409, %1412 ], [ %1175, %1173 ]
+  %1758 = phi <16 x i32> [ %1414, %1412 ], [ %1174, %1173 ]
+  %1759 = add nuw nsw i64 %1176, 1
+  %1760 = load i64, ptr %43, align 8
+  %1761 = icmp slt i64 %1759, %1760
+  br i1 %1761, label %1173, label %1762
 
-1759:
-  %1760 = phi i64 [ %1417, %1416 ], [ %1181, %1177 ]
-  %1761 = phi i64 [ %1413, %1416 ], [ %1179, %1177 ]
-  %1762 = phi <16 x i32> [ %1418, %1416 ], [ %1178, %1177 ]
-  %1763 = add nuw nsw i64 %1180, 1
-  %1764 = load i64, ptr %43, align 8
-  %1765 = icmp slt i64 %1763, %1764
-  br i1 %1765, label %1177, label %1766
-
-1766:
-  %1767 = phi i64 [ %760, %758 ], [ %1760, %1759 ]
-  %1768 = phi <16 x i32> [ %761, %758 ], [ %1762, %1759 ]
+1762:
+  %1763 = phi i64 [ %756, %754 ], [ %1756, %1755 ]
+  %1764 = phi <16 x i32> [ %757, %754 ], [ %1758, %1755 ]
   call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %13)
-  %1769 = icmp ne <16 x i32> %1768, zeroinitializer
-  %1770 = bitcast <16 x i1> %1769 to i16
-  %1771 = zext i16 %1770 to i64
+  %1765 = icmp ne <16 x i32> %1764, zeroinitializer
+  %1766 = bitcast <16 x i1> %1765 to i16
+  %1767 = zext i16 %1766 to i64
   call void @llvm.lifetime.end.p0(i64 18496, ptr nonnull %29)
   call void @llvm.lifetime.end.p0(i64 18496, ptr nonnull %28)
   call void @llvm.lifetime.end.p0(i64 13056, ptr nonnull %27)
@@ -5298,88 +6689,88 @@ define i64 @check_spans(ptr nocapture noundef readonly %0, ptr nocapture noundef
   call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %18)
   call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %17)
   call void @llvm.lifetime.end.p0(i64 1024, ptr nonnull %16)
-  %1772 = and i64 %1771, %111
-  %1773 = icmp eq i64 %1772, 0
-  br i1 %1773, label %1816, label %1779
+  %1768 = and i64 %1767, %111
+  %1769 = icmp eq i64 %1768, 0
+  br i1 %1769, label %1812, label %1775
 
-1774:
-  %1775 = phi i64 [ %1777, %1774 ], [ %72, %103 ]
-  %1776 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1775
-  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1776, ptr noundef nonnull align 16 dereferenceable(16) %31, i64 16, i1 false)
-  %1777 = add nuw i64 %1775, 1
-  %1778 = icmp eq i64 %1777, 16
-  br i1 %1778, label %106, label %1774
+1770:
+  %1771 = phi i64 [ %1773, %1770 ], [ %72, %103 ]
+  %1772 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1771
+  call void @llvm.memcpy.p0.p0.i64(ptr noundef nonnull align 16 dereferenceable(16) %1772, ptr noundef nonnull align 16 dereferenceable(16) %31, i64 16, i1 false)
+  %1773 = add nuw i64 %1771, 1
+  %1774 = icmp eq i64 %1773, 16
+  br i1 %1774, label %106, label %1770
 
-1779:
-  %1780 = phi i64 [ %1812, %1810 ], [ %109, %1766 ]
-  %1781 = phi i64 [ %1814, %1810 ], [ %1772, %1766 ]
-  %1782 = tail call range(i64 0, 65) i64 @llvm.ctlz.i64(i64 %1781, i1 true)
-  %1783 = xor i64 %1782, 63
-  %1784 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1783
-  %1785 = load i64, ptr %1784, align 16
-  %1786 = getelementptr inbounds i8, ptr %1784, i64 8
-  %1787 = load float, ptr %1786, align 8
-  %1788 = getelementptr inbounds i8, ptr %1784, i64 12
-  %1789 = load float, ptr %1788, align 4
-  %1790 = fadd contract float %1787, %1789
-  %1791 = fmul contract float %1790, 5.000000e-01
-  %1792 = fcmp contract oeq float %1787, %1789
-  br i1 %1792, label %1793, label %1796
+1775:
+  %1776 = phi i64 [ %1808, %1806 ], [ %109, %1762 ]
+  %1777 = phi i64 [ %1810, %1806 ], [ %1768, %1762 ]
+  %1778 = tail call range(i64 0, 65) i64 @llvm.ctlz.i64(i64 %1777, i1 true)
+  %1779 = xor i64 %1778, 63
+  %1780 = getelementptr inbounds [16 x %struct.SpanPiece], ptr %31, i64 0, i64 %1779
+  %1781 = load i64, ptr %1780, align 16
+  %1782 = getelementptr inbounds i8, ptr %1780, i64 8
+  %1783 = load float, ptr %1782, align 8
+  %1784 = getelementptr inbounds i8, ptr %1780, i64 12
+  %1785 = load float, ptr %1784, align 4
+  %1786 = fadd contract float %1783, %1785
+  %1787 = fmul contract float %1786, 5.000000e-01
+  %1788 = fcmp contract oeq float %1783, %1785
+  br i1 %1788, label %1789, label %1792
 
-1793:
-  %1794 = getelementptr inbounds i8, ptr %5, i64 %1785
-  store i8 1, ptr %1794, align 1
-  %1795 = shl nuw nsw i64 1, %1783
-  br label %1810
+1789:
+  %1790 = getelementptr inbounds i8, ptr %5, i64 %1781
+  store i8 1, ptr %1790, align 1
+  %1791 = shl nuw nsw i64 1, %1779
+  br label %1806
 
-1796:
-  %1797 = shl nuw nsw i64 1, %1783
-  %1798 = and i64 %1797, %181
-  %1799 = icmp eq i64 %1798, 0
-  %1800 = add nsw i64 %1780, 1
-  %1801 = getelementptr inbounds [4096 x %struct.SpanPiece], ptr %30, i64 0, i64 %1780
-  store i64 %1785, ptr %1801, align 16
-  %1802 = getelementptr inbounds i8, ptr %1801, i64 8
-  %1803 = getelementptr inbounds i8, ptr %1801, i64 12
-  br i1 %1799, label %1805, label %1804
+1792:
+  %1793 = shl nuw nsw i64 1, %1779
+  %1794 = and i64 %1793, %181
+  %1795 = icmp eq i64 %1794, 0
+  %1796 = add nsw i64 %1776, 1
+  %1797 = getelementptr inbounds [4096 x %struct.SpanPiece], ptr %30, i64 0, i64 %1776
+  store i64 %1781, ptr %1797, align 16
+  %1798 = getelementptr inbounds i8, ptr %1797, i64 8
+  %1799 = getelementptr inbounds i8, ptr %1797, i64 12
+  br i1 %1795, label %1801, label %1800
 
-1804:
-  store float %1789, ptr %1802, align 8
-  store float %1789, ptr %1803, align 4
-  br label %1810
+1800:
+  store float %1785, ptr %1798, align 8
+  store float %1785, ptr %1799, align 4
+  br label %1806
 
-1805:
-  store float %1791, ptr %1802, align 8
-  store float %1789, ptr %1803, align 4
-  %1806 = add nsw i64 %1780, 2
-  %1807 = getelementptr inbounds [4096 x %struct.SpanPiece], ptr %30, i64 0, i64 %1800
-  store i64 %1785, ptr %1807, align 16
-  %1808 = getelementptr inbounds i8, ptr %1807, i64 8
-  store float %1787, ptr %1808, align 8
-  %1809 = getelementptr inbounds i8, ptr %1807, i64 12
-  store float %1791, ptr %1809, align 4
-  br label %1810
+1801:
+  store float %1787, ptr %1798, align 8
+  store float %1785, ptr %1799, align 4
+  %1802 = add nsw i64 %1776, 2
+  %1803 = getelementptr inbounds [4096 x %struct.SpanPiece], ptr %30, i64 0, i64 %1796
+  store i64 %1781, ptr %1803, align 16
+  %1804 = getelementptr inbounds i8, ptr %1803, i64 8
+  store float %1783, ptr %1804, align 8
+  %1805 = getelementptr inbounds i8, ptr %1803, i64 12
+  store float %1787, ptr %1805, align 4
+  br label %1806
 
-1810:
-  %1811 = phi i64 [ %1797, %1804 ], [ %1797, %1805 ], [ %1795, %1793 ]
-  %1812 = phi i64 [ %1800, %1804 ], [ %1806, %1805 ], [ %1780, %1793 ]
-  %1813 = xor i64 %1811, -1
-  %1814 = and i64 %1781, %1813
-  %1815 = icmp eq i64 %1814, 0
-  br i1 %1815, label %1816, label %1779
+1806:
+  %1807 = phi i64 [ %1793, %1800 ], [ %1793, %1801 ], [ %1791, %1789 ]
+  %1808 = phi i64 [ %1796, %1800 ], [ %1802, %1801 ], [ %1776, %1789 ]
+  %1809 = xor i64 %1807, -1
+  %1810 = and i64 %1777, %1809
+  %1811 = icmp eq i64 %1810, 0
+  br i1 %1811, label %1812, label %1775
 
-1816:
-  %1817 = phi i64 [ %109, %1766 ], [ %1812, %1810 ]
+1812:
+  %1813 = phi i64 [ %109, %1762 ], [ %1808, %1806 ]
   call void @llvm.lifetime.end.p0(i64 256, ptr nonnull %31)
-  %1818 = icmp ne i64 %1817, 0
-  %1819 = icmp slt i64 %108, %2
-  %1820 = select i1 %1818, i1 true, i1 %1819
-  br i1 %1820, label %61, label %1821
+  %1814 = icmp ne i64 %1813, 0
+  %1815 = icmp slt i64 %108, %2
+  %1816 = select i1 %1814, i1 true, i1 %1815
+  br i1 %1816, label %61, label %1817
 
-1821:
-  %1822 = phi i64 [ %64, %105 ], [ 0, %33 ], [ 0, %6 ], [ %1767, %1816 ]
+1817:
+  %1818 = phi i64 [ %64, %105 ], [ 0, %33 ], [ 0, %6 ], [ %1763, %1812 ]
   call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %30)
-  ret i64 %1822
+  ret i64 %1818
 }
 
 declare void @llvm.memcpy.p0.p0.i64(ptr noalias nocapture writeonly, ptr noalias nocapture readonly, i64, i1 immarg)
@@ -6366,6 +7757,1645 @@ declare <16 x float> @llvm.sqrt.v16f32(<16 x float>)
 declare <8 x double> @llvm.fabs.v8f64(<8 x double>)
 
 declare <8 x double> @llvm.sqrt.v8f64(<8 x double>)
+
+define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %0, ptr noundef nonnull align 8 dereferenceable(112) %1, ptr noundef %2) comdat align 2 {
+  %4 = alloca [9 x <8 x double>], align 64
+  %5 = alloca [65 x %struct.Frame.3], align 64
+  %6 = load i64, ptr %1, align 8
+  call void @llvm.lifetime.start.p0(i64 49920, ptr nonnull %5)
+  %7 = getelementptr inbounds i8, ptr %1, i64 32
+  %8 = load ptr, ptr %7, align 8
+  br label %11
+
+9:
+  %10 = getelementptr inbounds i8, ptr %5, i64 576
+  br label %23
+
+11:
+  %12 = phi i64 [ 0, %3 ], [ %19, %11 ]
+  %13 = and i64 %12, 3
+  %14 = icmp eq i64 %13, 0
+  %15 = uitofp i1 %14 to double
+  %16 = insertelement <8 x double> poison, double %15, i64 0
+  %17 = shufflevector <8 x double> %16, <8 x double> poison, <8 x i32> zeroinitializer
+  %18 = getelementptr inbounds [9 x <8 x double>], ptr %5, i64 0, i64 %12
+  store <8 x double> %17, ptr %18, align 64
+  %19 = add nuw nsw i64 %12, 1
+  %20 = icmp eq i64 %19, 9
+  br i1 %20, label %9, label %11
+
+21:
+  %22 = icmp sgt i64 %6, 0
+  br i1 %22, label %28, label %232
+
+23:
+  %24 = phi i64 [ 0, %9 ], [ %26, %23 ]
+  %25 = getelementptr inbounds [3 x <8 x double>], ptr %10, i64 0, i64 %24
+  store <8 x double> zeroinitializer, ptr %25, align 64
+  %26 = add nuw nsw i64 %24, 1
+  %27 = icmp eq i64 %26, 3
+  br i1 %27, label %21, label %23
+
+28:
+  %29 = phi i64 [ %32, %230 ], [ 0, %21 ]
+  %30 = getelementptr inbounds %struct.Joint.6, ptr %8, i64 %29
+  %31 = getelementptr inbounds %struct.Frame.3, ptr %5, i64 %29
+  %32 = add nuw nsw i64 %29, 1
+  %33 = getelementptr inbounds <8 x double>, ptr %2, i64 %29
+  %34 = load <8 x double>, ptr %33, align 64
+  %35 = getelementptr inbounds i8, ptr %30, i64 72
+  %36 = load double, ptr %35, align 8
+  %37 = getelementptr inbounds i8, ptr %30, i64 80
+  %38 = load double, ptr %37, align 8
+  %39 = getelementptr inbounds i8, ptr %30, i64 88
+  %40 = load double, ptr %39, align 8
+  %41 = getelementptr inbounds i8, ptr %31, i64 576
+  %42 = load <8 x double>, ptr %41, align 64
+  %43 = load <8 x double>, ptr %31, align 64
+  %44 = insertelement <8 x double> poison, double %36, i64 0
+  %45 = shufflevector <8 x double> %44, <8 x double> poison, <8 x i32> zeroinitializer
+  %46 = fmul contract <8 x double> %45, %43
+  %47 = getelementptr inbounds i8, ptr %31, i64 64
+  %48 = load <8 x double>, ptr %47, align 64
+  %49 = insertelement <8 x double> poison, double %38, i64 0
+  %50 = shufflevector <8 x double> %49, <8 x double> poison, <8 x i32> zeroinitializer
+  %51 = fmul contract <8 x double> %50, %48
+  %52 = getelementptr inbounds i8, ptr %31, i64 128
+  %53 = load <8 x double>, ptr %52, align 64
+  %54 = insertelement <8 x double> poison, double %40, i64 0
+  %55 = shufflevector <8 x double> %54, <8 x double> poison, <8 x i32> zeroinitializer
+  %56 = fmul contract <8 x double> %55, %53
+  %57 = getelementptr inbounds i8, ptr %31, i64 640
+  %58 = load <8 x double>, ptr %57, align 64
+  %59 = getelementptr inbounds i8, ptr %31, i64 192
+  %60 = load <8 x double>, ptr %59, align 64
+  %61 = fmul contract <8 x double> %45, %60
+  %62 = getelementptr inbounds i8, ptr %31, i64 256
+  %63 = load <8 x double>, ptr %62, align 64
+  %64 = fmul contract <8 x double> %50, %63
+  %65 = getelementptr inbounds i8, ptr %31, i64 320
+  %66 = load <8 x double>, ptr %65, align 64
+  %67 = fmul contract <8 x double> %55, %66
+  %68 = getelementptr inbounds i8, ptr %31, i64 704
+  %69 = load <8 x double>, ptr %68, align 64
+  %70 = getelementptr inbounds i8, ptr %31, i64 384
+  %71 = load <8 x double>, ptr %70, align 64
+  %72 = fmul contract <8 x double> %45, %71
+  %73 = getelementptr inbounds i8, ptr %31, i64 448
+  %74 = load <8 x double>, ptr %73, align 64
+  %75 = fmul contract <8 x double> %50, %74
+  %76 = getelementptr inbounds i8, ptr %31, i64 512
+  %77 = load <8 x double>, ptr %76, align 64
+  %78 = fmul contract <8 x double> %55, %77
+  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %4)
+  br label %79
+
+79:
+  %80 = phi i64 [ 0, %28 ], [ %108, %107 ]
+  %81 = mul nuw nsw i64 %80, 3
+  %82 = getelementptr inbounds [9 x <8 x double>], ptr %31, i64 0, i64 %81
+  %83 = load <8 x double>, ptr %82, align 64
+  %84 = add nuw nsw i64 %81, 1
+  %85 = getelementptr inbounds [9 x <8 x double>], ptr %31, i64 0, i64 %84
+  %86 = load <8 x double>, ptr %85, align 64
+  %87 = add nuw nsw i64 %81, 2
+  %88 = getelementptr inbounds [9 x <8 x double>], ptr %31, i64 0, i64 %87
+  %89 = load <8 x double>, ptr %88, align 64
+  br label %110
+
+90:
+  %91 = getelementptr inbounds %struct.Frame.3, ptr %5, i64 %32
+  %92 = fadd contract <8 x double> %42, %46
+  %93 = fadd contract <8 x double> %92, %51
+  %94 = fadd contract <8 x double> %93, %56
+  %95 = fadd contract <8 x double> %58, %61
+  %96 = fadd contract <8 x double> %95, %64
+  %97 = fadd contract <8 x double> %96, %67
+  %98 = fadd contract <8 x double> %69, %72
+  %99 = fadd contract <8 x double> %98, %75
+  %100 = fadd contract <8 x double> %99, %78
+  %101 = getelementptr inbounds i8, ptr %91, i64 576
+  store <8 x double> %94, ptr %101, align 64
+  %102 = getelementptr inbounds i8, ptr %91, i64 640
+  store <8 x double> %97, ptr %102, align 64
+  %103 = getelementptr inbounds i8, ptr %91, i64 704
+  store <8 x double> %100, ptr %103, align 64
+  %104 = getelementptr inbounds i8, ptr %30, i64 96
+  %105 = load double, ptr %104, align 8
+  %106 = fcmp contract une double %105, 0.000000e+00
+  br i1 %106, label %135, label %154
+
+107:
+  %108 = add nuw nsw i64 %80, 1
+  %109 = icmp eq i64 %108, 3
+  br i1 %109, label %90, label %79
+
+110:
+  %111 = phi i64 [ 0, %79 ], [ %133, %110 ]
+  %112 = getelementptr inbounds [9 x double], ptr %30, i64 0, i64 %111
+  %113 = load double, ptr %112, align 8
+  %114 = insertelement <8 x double> poison, double %113, i64 0
+  %115 = shufflevector <8 x double> %114, <8 x double> poison, <8 x i32> zeroinitializer
+  %116 = fmul contract <8 x double> %83, %115
+  %117 = add nuw nsw i64 %111, 3
+  %118 = getelementptr inbounds [9 x double], ptr %30, i64 0, i64 %117
+  %119 = load double, ptr %118, align 8
+  %120 = insertelement <8 x double> poison, double %119, i64 0
+  %121 = shufflevector <8 x double> %120, <8 x double> poison, <8 x i32> zeroinitializer
+  %122 = fmul contract <8 x double> %86, %121
+  %123 = fadd contract <8 x double> %116, %122
+  %124 = add nuw nsw i64 %111, 6
+  %125 = getelementptr inbounds [9 x double], ptr %30, i64 0, i64 %124
+  %126 = load double, ptr %125, align 8
+  %127 = insertelement <8 x double> poison, double %126, i64 0
+  %128 = shufflevector <8 x double> %127, <8 x double> poison, <8 x i32> zeroinitializer
+  %129 = fmul contract <8 x double> %89, %128
+  %130 = fadd contract <8 x double> %123, %129
+  %131 = add nuw nsw i64 %111, %81
+  %132 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %131
+  store <8 x double> %130, ptr %132, align 64
+  %133 = add nuw nsw i64 %111, 1
+  %134 = icmp eq i64 %133, 3
+  br i1 %134, label %107, label %110
+
+135:
+  %136 = phi i64 [ %140, %135 ], [ 0, %90 ]
+  %137 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %136
+  %138 = load <8 x double>, ptr %137, align 64
+  %139 = getelementptr inbounds [9 x <8 x double>], ptr %91, i64 0, i64 %136
+  store <8 x double> %138, ptr %139, align 64
+  %140 = add nuw nsw i64 %136, 1
+  %141 = icmp eq i64 %140, 9
+  br i1 %141, label %142, label %135
+
+142:
+  %143 = phi i64 [ %152, %142 ], [ 0, %135 ]
+  %144 = mul nuw nsw i64 %143, 3
+  %145 = add nuw nsw i64 %144, 2
+  %146 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %145
+  %147 = load <8 x double>, ptr %146, align 64
+  %148 = fmul contract <8 x double> %34, %147
+  %149 = getelementptr inbounds [3 x <8 x double>], ptr %101, i64 0, i64 %143
+  %150 = load <8 x double>, ptr %149, align 64
+  %151 = fadd contract <8 x double> %150, %148
+  store <8 x double> %151, ptr %149, align 64
+  %152 = add nuw nsw i64 %143, 1
+  %153 = icmp eq i64 %152, 3
+  br i1 %153, label %230, label %142
+
+154:
+  %155 = fmul contract <8 x double> %34, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %156 = fadd contract <8 x double> %155, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %157 = fadd contract <8 x double> %156, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %158 = fmul contract <8 x double> %157, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %159 = fsub contract <8 x double> %34, %158
+  %160 = fmul contract <8 x double> %157, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %161 = fsub contract <8 x double> %159, %160
+  %162 = fmul contract <8 x double> %157, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %163 = fsub contract <8 x double> %161, %162
+  %164 = fmul contract <8 x double> %157, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %165 = fadd contract <8 x double> %164, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %166 = fadd contract <8 x double> %165, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %167 = fsub contract <8 x double> %164, %166
+  %168 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %167)
+  %169 = fmul contract <8 x double> %168, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %170 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %169
+  %171 = fmul contract <8 x double> %163, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %172 = fmul contract <8 x double> %171, %171
+  %173 = fmul contract <8 x double> %171, %172
+  %174 = fmul contract <8 x double> %172, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %175 = fadd contract <8 x double> %174, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %176 = fmul contract <8 x double> %172, %175
+  %177 = fadd contract <8 x double> %176, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %178 = fmul contract <8 x double> %172, %177
+  %179 = fadd contract <8 x double> %178, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %180 = fmul contract <8 x double> %172, %179
+  %181 = fadd contract <8 x double> %180, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %182 = fmul contract <8 x double> %172, %181
+  %183 = fadd contract <8 x double> %182, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %184 = fmul contract <8 x double> %173, %183
+  %185 = fadd contract <8 x double> %171, %184
+  %186 = fmul contract <8 x double> %172, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %187 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %186
+  %188 = fmul contract <8 x double> %172, %172
+  %189 = fmul contract <8 x double> %172, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %190 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %189
+  %191 = fmul contract <8 x double> %172, %190
+  %192 = fadd contract <8 x double> %191, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %193 = fmul contract <8 x double> %172, %192
+  %194 = fadd contract <8 x double> %193, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %195 = fmul contract <8 x double> %172, %194
+  %196 = fadd contract <8 x double> %195, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %197 = fmul contract <8 x double> %172, %196
+  %198 = fadd contract <8 x double> %197, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %199 = fmul contract <8 x double> %188, %198
+  %200 = fadd contract <8 x double> %187, %199
+  %201 = fmul contract <8 x double> %170, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %202 = fmul contract <8 x double> %201, %185
+  %203 = fmul contract <8 x double> %200, %202
+  %204 = fmul contract <8 x double> %185, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %205 = fmul contract <8 x double> %185, %204
+  %206 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %205
+  %207 = fmul contract <8 x double> %170, %206
+  br label %208
+
+208:
+  %209 = phi i64 [ 0, %154 ], [ %228, %208 ]
+  %210 = mul nuw nsw i64 %209, 3
+  %211 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %210
+  %212 = load <8 x double>, ptr %211, align 64
+  %213 = fmul contract <8 x double> %207, %212
+  %214 = add nuw nsw i64 %210, 1
+  %215 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %214
+  %216 = load <8 x double>, ptr %215, align 64
+  %217 = fmul contract <8 x double> %203, %216
+  %218 = fadd contract <8 x double> %213, %217
+  %219 = getelementptr inbounds [9 x <8 x double>], ptr %91, i64 0, i64 %210
+  store <8 x double> %218, ptr %219, align 64
+  %220 = fmul contract <8 x double> %207, %216
+  %221 = fmul contract <8 x double> %203, %212
+  %222 = fsub contract <8 x double> %220, %221
+  %223 = getelementptr inbounds [9 x <8 x double>], ptr %91, i64 0, i64 %214
+  store <8 x double> %222, ptr %223, align 64
+  %224 = add nuw nsw i64 %210, 2
+  %225 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %224
+  %226 = load <8 x double>, ptr %225, align 64
+  %227 = getelementptr inbounds [9 x <8 x double>], ptr %91, i64 0, i64 %224
+  store <8 x double> %226, ptr %227, align 64
+  %228 = add nuw nsw i64 %209, 1
+  %229 = icmp eq i64 %228, 3
+  br i1 %229, label %230, label %208
+
+230:
+  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %4)
+  %231 = icmp eq i64 %32, %6
+  br i1 %231, label %232, label %28
+
+232:
+  %233 = getelementptr inbounds i8, ptr %1, i64 48
+  %234 = load ptr, ptr %233, align 8
+  %235 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %6
+  %236 = getelementptr inbounds i8, ptr %234, i64 72
+  %237 = load double, ptr %236, align 8
+  %238 = getelementptr inbounds i8, ptr %234, i64 80
+  %239 = load double, ptr %238, align 8
+  %240 = getelementptr inbounds i8, ptr %234, i64 88
+  %241 = load double, ptr %240, align 8
+  %242 = getelementptr inbounds i8, ptr %235, i64 576
+  %243 = load <8 x double>, ptr %242, align 64
+  %244 = load <8 x double>, ptr %235, align 64
+  %245 = insertelement <8 x double> poison, double %237, i64 0
+  %246 = shufflevector <8 x double> %245, <8 x double> poison, <8 x i32> zeroinitializer
+  %247 = fmul contract <8 x double> %246, %244
+  %248 = fadd contract <8 x double> %243, %247
+  %249 = getelementptr inbounds i8, ptr %235, i64 64
+  %250 = load <8 x double>, ptr %249, align 64
+  %251 = insertelement <8 x double> poison, double %239, i64 0
+  %252 = shufflevector <8 x double> %251, <8 x double> poison, <8 x i32> zeroinitializer
+  %253 = fmul contract <8 x double> %252, %250
+  %254 = fadd contract <8 x double> %248, %253
+  %255 = getelementptr inbounds i8, ptr %235, i64 128
+  %256 = load <8 x double>, ptr %255, align 64
+  %257 = insertelement <8 x double> poison, double %241, i64 0
+  %258 = shufflevector <8 x double> %257, <8 x double> poison, <8 x i32> zeroinitializer
+  %259 = fmul contract <8 x double> %258, %256
+  %260 = fadd contract <8 x double> %254, %259
+  %261 = getelementptr inbounds i8, ptr %235, i64 640
+  %262 = load <8 x double>, ptr %261, align 64
+  %263 = getelementptr inbounds i8, ptr %235, i64 192
+  %264 = load <8 x double>, ptr %263, align 64
+  %265 = fmul contract <8 x double> %246, %264
+  %266 = fadd contract <8 x double> %262, %265
+  %267 = getelementptr inbounds i8, ptr %235, i64 256
+  %268 = load <8 x double>, ptr %267, align 64
+  %269 = fmul contract <8 x double> %252, %268
+  %270 = fadd contract <8 x double> %266, %269
+  %271 = getelementptr inbounds i8, ptr %235, i64 320
+  %272 = load <8 x double>, ptr %271, align 64
+  %273 = fmul contract <8 x double> %258, %272
+  %274 = fadd contract <8 x double> %270, %273
+  %275 = getelementptr inbounds i8, ptr %235, i64 704
+  %276 = load <8 x double>, ptr %275, align 64
+  %277 = getelementptr inbounds i8, ptr %235, i64 384
+  %278 = load <8 x double>, ptr %277, align 64
+  %279 = fmul contract <8 x double> %246, %278
+  %280 = fadd contract <8 x double> %276, %279
+  %281 = getelementptr inbounds i8, ptr %235, i64 448
+  %282 = load <8 x double>, ptr %281, align 64
+  %283 = fmul contract <8 x double> %252, %282
+  %284 = fadd contract <8 x double> %280, %283
+  %285 = getelementptr inbounds i8, ptr %235, i64 512
+  %286 = load <8 x double>, ptr %285, align 64
+  %287 = fmul contract <8 x double> %258, %286
+  %288 = fadd contract <8 x double> %284, %287
+  store i64 0, ptr %0, align 64
+  %289 = getelementptr inbounds i8, ptr %1, i64 8
+  %290 = load i64, ptr %289, align 8
+  %291 = icmp sgt i64 %290, 0
+  br i1 %291, label %292, label %295
+
+292:
+  %293 = getelementptr inbounds i8, ptr %1, i64 40
+  %294 = getelementptr inbounds i8, ptr %0, i64 64
+  br label %296
+
+295:
+  call void @llvm.lifetime.end.p0(i64 49920, ptr nonnull %5)
+  ret void
+
+296:
+  %297 = phi i64 [ 0, %292 ], [ %486, %485 ]
+  %298 = phi i64 [ 0, %292 ], [ %487, %485 ]
+  %299 = load ptr, ptr %293, align 8
+  %300 = getelementptr inbounds %struct.Constraint, ptr %299, i64 %298
+  %301 = load i64, ptr %300, align 8
+  %302 = icmp eq i64 %301, 0
+  br i1 %302, label %352, label %303
+
+303:
+  %304 = icmp sgt i64 %301, 0
+  br i1 %304, label %305, label %322
+
+305:
+  %306 = getelementptr inbounds i8, ptr %300, i64 24
+  %307 = getelementptr inbounds i8, ptr %300, i64 96
+  %308 = load double, ptr %307, align 8
+  %309 = insertelement <8 x double> poison, double %308, i64 0
+  %310 = shufflevector <8 x double> %309, <8 x double> poison, <8 x i32> zeroinitializer
+  %311 = fsub contract <8 x double> %310, %260
+  %312 = getelementptr inbounds i8, ptr %300, i64 104
+  %313 = load double, ptr %312, align 8
+  %314 = insertelement <8 x double> poison, double %313, i64 0
+  %315 = shufflevector <8 x double> %314, <8 x double> poison, <8 x i32> zeroinitializer
+  %316 = fsub contract <8 x double> %315, %274
+  %317 = getelementptr inbounds i8, ptr %300, i64 112
+  %318 = load double, ptr %317, align 8
+  %319 = insertelement <8 x double> poison, double %318, i64 0
+  %320 = shufflevector <8 x double> %319, <8 x double> poison, <8 x i32> zeroinitializer
+  %321 = fsub contract <8 x double> %320, %288
+  br label %327
+
+322:
+  %323 = phi <8 x double> [ zeroinitializer, %303 ], [ %349, %327 ]
+  %324 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %323)
+  %325 = add nsw i64 %297, 1
+  %326 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %297
+  store <8 x double> %324, ptr %326, align 64
+  br label %352
+
+327:
+  %328 = phi <8 x double> [ zeroinitializer, %305 ], [ %349, %327 ]
+  %329 = phi i64 [ 0, %305 ], [ %350, %327 ]
+  %330 = mul i64 %329, 24
+  %331 = getelementptr inbounds i8, ptr %306, i64 %330
+  %332 = load double, ptr %331, align 8
+  %333 = insertelement <8 x double> poison, double %332, i64 0
+  %334 = shufflevector <8 x double> %333, <8 x double> poison, <8 x i32> zeroinitializer
+  %335 = fmul contract <8 x double> %311, %334
+  %336 = getelementptr inbounds i8, ptr %331, i64 8
+  %337 = load double, ptr %336, align 8
+  %338 = insertelement <8 x double> poison, double %337, i64 0
+  %339 = shufflevector <8 x double> %338, <8 x double> poison, <8 x i32> zeroinitializer
+  %340 = fmul contract <8 x double> %316, %339
+  %341 = fadd contract <8 x double> %335, %340
+  %342 = getelementptr inbounds i8, ptr %331, i64 16
+  %343 = load double, ptr %342, align 8
+  %344 = insertelement <8 x double> poison, double %343, i64 0
+  %345 = shufflevector <8 x double> %344, <8 x double> poison, <8 x i32> zeroinitializer
+  %346 = fmul contract <8 x double> %321, %345
+  %347 = fadd contract <8 x double> %341, %346
+  %348 = fmul contract <8 x double> %347, %347
+  %349 = fadd contract <8 x double> %328, %348
+  %350 = add nuw nsw i64 %329, 1
+  %351 = icmp eq i64 %350, %301
+  br i1 %351, label %322, label %327
+
+352:
+  %353 = phi i64 [ %325, %322 ], [ %297, %296 ]
+  %354 = getelementptr inbounds i8, ptr %300, i64 8
+  %355 = load i64, ptr %354, align 8
+  %356 = icmp eq i64 %355, 0
+  br i1 %356, label %414, label %357
+
+357:
+  %358 = getelementptr inbounds i8, ptr %300, i64 120
+  br label %361
+
+359:
+  %360 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %411)
+  br label %481
+
+361:
+  %362 = phi i64 [ 0, %357 ], [ %412, %361 ]
+  %363 = phi <8 x double> [ zeroinitializer, %357 ], [ %411, %361 ]
+  %364 = getelementptr inbounds double, ptr %234, i64 %362
+  %365 = load double, ptr %364, align 8
+  %366 = getelementptr inbounds i8, ptr %364, i64 24
+  %367 = load double, ptr %366, align 8
+  %368 = getelementptr inbounds i8, ptr %364, i64 48
+  %369 = load double, ptr %368, align 8
+  %370 = insertelement <8 x double> poison, double %365, i64 0
+  %371 = shufflevector <8 x double> %370, <8 x double> poison, <8 x i32> zeroinitializer
+  %372 = fmul contract <8 x double> %244, %371
+  %373 = insertelement <8 x double> poison, double %367, i64 0
+  %374 = shufflevector <8 x double> %373, <8 x double> poison, <8 x i32> zeroinitializer
+  %375 = fmul contract <8 x double> %250, %374
+  %376 = fadd contract <8 x double> %372, %375
+  %377 = insertelement <8 x double> poison, double %369, i64 0
+  %378 = shufflevector <8 x double> %377, <8 x double> poison, <8 x i32> zeroinitializer
+  %379 = fmul contract <8 x double> %256, %378
+  %380 = fadd contract <8 x double> %376, %379
+  %381 = fmul contract <8 x double> %264, %371
+  %382 = fmul contract <8 x double> %268, %374
+  %383 = fadd contract <8 x double> %381, %382
+  %384 = fmul contract <8 x double> %272, %378
+  %385 = fadd contract <8 x double> %383, %384
+  %386 = fmul contract <8 x double> %278, %371
+  %387 = fmul contract <8 x double> %282, %374
+  %388 = fadd contract <8 x double> %386, %387
+  %389 = fmul contract <8 x double> %286, %378
+  %390 = fadd contract <8 x double> %388, %389
+  %391 = getelementptr inbounds double, ptr %358, i64 %362
+  %392 = load double, ptr %391, align 8
+  %393 = insertelement <8 x double> poison, double %392, i64 0
+  %394 = shufflevector <8 x double> %393, <8 x double> poison, <8 x i32> zeroinitializer
+  %395 = fsub contract <8 x double> %380, %394
+  %396 = getelementptr inbounds i8, ptr %391, i64 24
+  %397 = load double, ptr %396, align 8
+  %398 = insertelement <8 x double> poison, double %397, i64 0
+  %399 = shufflevector <8 x double> %398, <8 x double> poison, <8 x i32> zeroinitializer
+  %400 = fsub contract <8 x double> %385, %399
+  %401 = getelementptr inbounds i8, ptr %391, i64 48
+  %402 = load double, ptr %401, align 8
+  %403 = insertelement <8 x double> poison, double %402, i64 0
+  %404 = shufflevector <8 x double> %403, <8 x double> poison, <8 x i32> zeroinitializer
+  %405 = fsub contract <8 x double> %390, %404
+  %406 = fmul contract <8 x double> %395, %395
+  %407 = fmul contract <8 x double> %400, %400
+  %408 = fadd contract <8 x double> %406, %407
+  %409 = fmul contract <8 x double> %405, %405
+  %410 = fadd contract <8 x double> %408, %409
+  %411 = fadd contract <8 x double> %363, %410
+  %412 = add nuw nsw i64 %362, 1
+  %413 = icmp eq i64 %412, 3
+  br i1 %413, label %359, label %361
+
+414:
+  %415 = getelementptr inbounds i8, ptr %300, i64 16
+  %416 = load i64, ptr %415, align 8
+  %417 = icmp eq i64 %416, 0
+  br i1 %417, label %485, label %418
+
+418:
+  %419 = getelementptr inbounds i8, ptr %300, i64 192
+  %420 = getelementptr inbounds i8, ptr %300, i64 216
+  %421 = load double, ptr %420, align 8
+  %422 = insertelement <8 x double> poison, double %421, i64 0
+  %423 = shufflevector <8 x double> %422, <8 x double> poison, <8 x i32> zeroinitializer
+  %424 = fmul contract <8 x double> %244, %423
+  %425 = getelementptr inbounds i8, ptr %300, i64 224
+  %426 = load double, ptr %425, align 8
+  %427 = insertelement <8 x double> poison, double %426, i64 0
+  %428 = shufflevector <8 x double> %427, <8 x double> poison, <8 x i32> zeroinitializer
+  %429 = fmul contract <8 x double> %250, %428
+  %430 = fadd contract <8 x double> %424, %429
+  %431 = getelementptr inbounds i8, ptr %300, i64 232
+  %432 = load double, ptr %431, align 8
+  %433 = insertelement <8 x double> poison, double %432, i64 0
+  %434 = shufflevector <8 x double> %433, <8 x double> poison, <8 x i32> zeroinitializer
+  %435 = fmul contract <8 x double> %256, %434
+  %436 = fadd contract <8 x double> %430, %435
+  %437 = fmul contract <8 x double> %264, %423
+  %438 = fmul contract <8 x double> %268, %428
+  %439 = fadd contract <8 x double> %437, %438
+  %440 = fmul contract <8 x double> %272, %434
+  %441 = fadd contract <8 x double> %439, %440
+  %442 = fmul contract <8 x double> %278, %423
+  %443 = fmul contract <8 x double> %282, %428
+  %444 = fadd contract <8 x double> %442, %443
+  %445 = fmul contract <8 x double> %286, %434
+  %446 = fadd contract <8 x double> %444, %445
+  %447 = getelementptr inbounds i8, ptr %300, i64 208
+  %448 = load double, ptr %447, align 8
+  %449 = insertelement <8 x double> poison, double %448, i64 0
+  %450 = shufflevector <8 x double> %449, <8 x double> poison, <8 x i32> zeroinitializer
+  %451 = fmul contract <8 x double> %450, %441
+  %452 = getelementptr inbounds i8, ptr %300, i64 200
+  %453 = load double, ptr %452, align 8
+  %454 = insertelement <8 x double> poison, double %453, i64 0
+  %455 = shufflevector <8 x double> %454, <8 x double> poison, <8 x i32> zeroinitializer
+  %456 = fmul contract <8 x double> %446, %455
+  %457 = fsub contract <8 x double> %451, %456
+  %458 = load double, ptr %419, align 8
+  %459 = insertelement <8 x double> poison, double %458, i64 0
+  %460 = shufflevector <8 x double> %459, <8 x double> poison, <8 x i32> zeroinitializer
+  %461 = fmul contract <8 x double> %446, %460
+  %462 = fmul contract <8 x double> %450, %436
+  %463 = fsub contract <8 x double> %461, %462
+  %464 = fmul contract <8 x double> %436, %455
+  %465 = fmul contract <8 x double> %441, %460
+  %466 = fsub contract <8 x double> %464, %465
+  %467 = fmul contract <8 x double> %457, %457
+  %468 = fmul contract <8 x double> %463, %463
+  %469 = fadd contract <8 x double> %467, %468
+  %470 = fmul contract <8 x double> %466, %466
+  %471 = fadd contract <8 x double> %470, %469
+  %472 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %471)
+  %473 = fmul contract <8 x double> %436, %460
+  %474 = fmul contract <8 x double> %441, %455
+  %475 = fadd contract <8 x double> %474, %473
+  %476 = fmul contract <8 x double> %450, %446
+  %477 = fadd contract <8 x double> %476, %475
+  %478 = fcmp contract ogt <8 x double> %477, zeroinitializer
+  %479 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %472
+  %480 = select contract <8 x i1> %478, <8 x double> %472, <8 x double> %479
+  br label %481
+
+481:
+  %482 = phi <8 x double> [ %360, %359 ], [ %480, %418 ]
+  %483 = add nsw i64 %353, 1
+  %484 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %353
+  store <8 x double> %482, ptr %484, align 64
+  br label %485
+
+485:
+  %486 = phi i64 [ %353, %414 ], [ %483, %481 ]
+  %487 = add nuw nsw i64 %298, 1
+  %488 = load i64, ptr %289, align 8
+  %489 = icmp slt i64 %487, %488
+  br i1 %489, label %296, label %295
+}
+
+define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %0, ptr noundef nonnull align 8 dereferenceable(112) %1, ptr noundef %2) comdat align 2 {
+  %4 = alloca [9 x <8 x double>], align 64
+  %5 = alloca [65 x %struct.Frame.3], align 64
+  %6 = alloca [3 x <8 x double>], align 64
+  %7 = alloca [3 x <8 x double>], align 64
+  %8 = load i64, ptr %1, align 8
+  call void @llvm.lifetime.start.p0(i64 49920, ptr nonnull %5)
+  %9 = getelementptr inbounds i8, ptr %1, i64 32
+  %10 = load ptr, ptr %9, align 8
+  br label %13
+
+11:
+  %12 = getelementptr inbounds i8, ptr %5, i64 576
+  br label %25
+
+13:
+  %14 = phi i64 [ 0, %3 ], [ %21, %13 ]
+  %15 = and i64 %14, 3
+  %16 = icmp eq i64 %15, 0
+  %17 = uitofp i1 %16 to double
+  %18 = insertelement <8 x double> poison, double %17, i64 0
+  %19 = shufflevector <8 x double> %18, <8 x double> poison, <8 x i32> zeroinitializer
+  %20 = getelementptr inbounds [9 x <8 x double>], ptr %5, i64 0, i64 %14
+  store <8 x double> %19, ptr %20, align 64
+  %21 = add nuw nsw i64 %14, 1
+  %22 = icmp eq i64 %21, 9
+  br i1 %22, label %11, label %13
+
+23:
+  %24 = icmp sgt i64 %8, 0
+  br i1 %24, label %30, label %234
+
+25:
+  %26 = phi i64 [ 0, %11 ], [ %28, %25 ]
+  %27 = getelementptr inbounds [3 x <8 x double>], ptr %12, i64 0, i64 %26
+  store <8 x double> zeroinitializer, ptr %27, align 64
+  %28 = add nuw nsw i64 %26, 1
+  %29 = icmp eq i64 %28, 3
+  br i1 %29, label %23, label %25
+
+30:
+  %31 = phi i64 [ %34, %232 ], [ 0, %23 ]
+  %32 = getelementptr inbounds %struct.Joint.6, ptr %10, i64 %31
+  %33 = getelementptr inbounds %struct.Frame.3, ptr %5, i64 %31
+  %34 = add nuw nsw i64 %31, 1
+  %35 = getelementptr inbounds <8 x double>, ptr %2, i64 %31
+  %36 = load <8 x double>, ptr %35, align 64
+  %37 = getelementptr inbounds i8, ptr %32, i64 72
+  %38 = load double, ptr %37, align 8
+  %39 = getelementptr inbounds i8, ptr %32, i64 80
+  %40 = load double, ptr %39, align 8
+  %41 = getelementptr inbounds i8, ptr %32, i64 88
+  %42 = load double, ptr %41, align 8
+  %43 = getelementptr inbounds i8, ptr %33, i64 576
+  %44 = load <8 x double>, ptr %43, align 64
+  %45 = load <8 x double>, ptr %33, align 64
+  %46 = insertelement <8 x double> poison, double %38, i64 0
+  %47 = shufflevector <8 x double> %46, <8 x double> poison, <8 x i32> zeroinitializer
+  %48 = fmul contract <8 x double> %47, %45
+  %49 = getelementptr inbounds i8, ptr %33, i64 64
+  %50 = load <8 x double>, ptr %49, align 64
+  %51 = insertelement <8 x double> poison, double %40, i64 0
+  %52 = shufflevector <8 x double> %51, <8 x double> poison, <8 x i32> zeroinitializer
+  %53 = fmul contract <8 x double> %52, %50
+  %54 = getelementptr inbounds i8, ptr %33, i64 128
+  %55 = load <8 x double>, ptr %54, align 64
+  %56 = insertelement <8 x double> poison, double %42, i64 0
+  %57 = shufflevector <8 x double> %56, <8 x double> poison, <8 x i32> zeroinitializer
+  %58 = fmul contract <8 x double> %57, %55
+  %59 = getelementptr inbounds i8, ptr %33, i64 640
+  %60 = load <8 x double>, ptr %59, align 64
+  %61 = getelementptr inbounds i8, ptr %33, i64 192
+  %62 = load <8 x double>, ptr %61, align 64
+  %63 = fmul contract <8 x double> %47, %62
+  %64 = getelementptr inbounds i8, ptr %33, i64 256
+  %65 = load <8 x double>, ptr %64, align 64
+  %66 = fmul contract <8 x double> %52, %65
+  %67 = getelementptr inbounds i8, ptr %33, i64 320
+  %68 = load <8 x double>, ptr %67, align 64
+  %69 = fmul contract <8 x double> %57, %68
+  %70 = getelementptr inbounds i8, ptr %33, i64 704
+  %71 = load <8 x double>, ptr %70, align 64
+  %72 = getelementptr inbounds i8, ptr %33, i64 384
+  %73 = load <8 x double>, ptr %72, align 64
+  %74 = fmul contract <8 x double> %47, %73
+  %75 = getelementptr inbounds i8, ptr %33, i64 448
+  %76 = load <8 x double>, ptr %75, align 64
+  %77 = fmul contract <8 x double> %52, %76
+  %78 = getelementptr inbounds i8, ptr %33, i64 512
+  %79 = load <8 x double>, ptr %78, align 64
+  %80 = fmul contract <8 x double> %57, %79
+  call void @llvm.lifetime.start.p0(i64 576, ptr nonnull %4)
+  br label %81
+
+81:
+  %82 = phi i64 [ 0, %30 ], [ %110, %109 ]
+  %83 = mul nuw nsw i64 %82, 3
+  %84 = getelementptr inbounds [9 x <8 x double>], ptr %33, i64 0, i64 %83
+  %85 = load <8 x double>, ptr %84, align 64
+  %86 = add nuw nsw i64 %83, 1
+  %87 = getelementptr inbounds [9 x <8 x double>], ptr %33, i64 0, i64 %86
+  %88 = load <8 x double>, ptr %87, align 64
+  %89 = add nuw nsw i64 %83, 2
+  %90 = getelementptr inbounds [9 x <8 x double>], ptr %33, i64 0, i64 %89
+  %91 = load <8 x double>, ptr %90, align 64
+  br label %112
+
+92:
+  %93 = getelementptr inbounds %struct.Frame.3, ptr %5, i64 %34
+  %94 = fadd contract <8 x double> %44, %48
+  %95 = fadd contract <8 x double> %94, %53
+  %96 = fadd contract <8 x double> %95, %58
+  %97 = fadd contract <8 x double> %60, %63
+  %98 = fadd contract <8 x double> %97, %66
+  %99 = fadd contract <8 x double> %98, %69
+  %100 = fadd contract <8 x double> %71, %74
+  %101 = fadd contract <8 x double> %100, %77
+  %102 = fadd contract <8 x double> %101, %80
+  %103 = getelementptr inbounds i8, ptr %93, i64 576
+  store <8 x double> %96, ptr %103, align 64
+  %104 = getelementptr inbounds i8, ptr %93, i64 640
+  store <8 x double> %99, ptr %104, align 64
+  %105 = getelementptr inbounds i8, ptr %93, i64 704
+  store <8 x double> %102, ptr %105, align 64
+  %106 = getelementptr inbounds i8, ptr %32, i64 96
+  %107 = load double, ptr %106, align 8
+  %108 = fcmp contract une double %107, 0.000000e+00
+  br i1 %108, label %137, label %156
+
+109:
+  %110 = add nuw nsw i64 %82, 1
+  %111 = icmp eq i64 %110, 3
+  br i1 %111, label %92, label %81
+
+112:
+  %113 = phi i64 [ 0, %81 ], [ %135, %112 ]
+  %114 = getelementptr inbounds [9 x double], ptr %32, i64 0, i64 %113
+  %115 = load double, ptr %114, align 8
+  %116 = insertelement <8 x double> poison, double %115, i64 0
+  %117 = shufflevector <8 x double> %116, <8 x double> poison, <8 x i32> zeroinitializer
+  %118 = fmul contract <8 x double> %85, %117
+  %119 = add nuw nsw i64 %113, 3
+  %120 = getelementptr inbounds [9 x double], ptr %32, i64 0, i64 %119
+  %121 = load double, ptr %120, align 8
+  %122 = insertelement <8 x double> poison, double %121, i64 0
+  %123 = shufflevector <8 x double> %122, <8 x double> poison, <8 x i32> zeroinitializer
+  %124 = fmul contract <8 x double> %88, %123
+  %125 = fadd contract <8 x double> %118, %124
+  %126 = add nuw nsw i64 %113, 6
+  %127 = getelementptr inbounds [9 x double], ptr %32, i64 0, i64 %126
+  %128 = load double, ptr %127, align 8
+  %129 = insertelement <8 x double> poison, double %128, i64 0
+  %130 = shufflevector <8 x double> %129, <8 x double> poison, <8 x i32> zeroinitializer
+  %131 = fmul contract <8 x double> %91, %130
+  %132 = fadd contract <8 x double> %125, %131
+  %133 = add nuw nsw i64 %113, %83
+  %134 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %133
+  store <8 x double> %132, ptr %134, align 64
+  %135 = add nuw nsw i64 %113, 1
+  %136 = icmp eq i64 %135, 3
+  br i1 %136, label %109, label %112
+
+137:
+  %138 = phi i64 [ %142, %137 ], [ 0, %92 ]
+  %139 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %138
+  %140 = load <8 x double>, ptr %139, align 64
+  %141 = getelementptr inbounds [9 x <8 x double>], ptr %93, i64 0, i64 %138
+  store <8 x double> %140, ptr %141, align 64
+  %142 = add nuw nsw i64 %138, 1
+  %143 = icmp eq i64 %142, 9
+  br i1 %143, label %144, label %137
+
+144:
+  %145 = phi i64 [ %154, %144 ], [ 0, %137 ]
+  %146 = mul nuw nsw i64 %145, 3
+  %147 = add nuw nsw i64 %146, 2
+  %148 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %147
+  %149 = load <8 x double>, ptr %148, align 64
+  %150 = fmul contract <8 x double> %36, %149
+  %151 = getelementptr inbounds [3 x <8 x double>], ptr %103, i64 0, i64 %145
+  %152 = load <8 x double>, ptr %151, align 64
+  %153 = fadd contract <8 x double> %152, %150
+  store <8 x double> %153, ptr %151, align 64
+  %154 = add nuw nsw i64 %145, 1
+  %155 = icmp eq i64 %154, 3
+  br i1 %155, label %232, label %144
+
+156:
+  %157 = fmul contract <8 x double> %36, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %158 = fadd contract <8 x double> %157, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %159 = fadd contract <8 x double> %158, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %160 = fmul contract <8 x double> %159, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %161 = fsub contract <8 x double> %36, %160
+  %162 = fmul contract <8 x double> %159, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %163 = fsub contract <8 x double> %161, %162
+  %164 = fmul contract <8 x double> %159, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %165 = fsub contract <8 x double> %163, %164
+  %166 = fmul contract <8 x double> %159, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %167 = fadd contract <8 x double> %166, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %168 = fadd contract <8 x double> %167, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %169 = fsub contract <8 x double> %166, %168
+  %170 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %169)
+  %171 = fmul contract <8 x double> %170, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %172 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %171
+  %173 = fmul contract <8 x double> %165, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %174 = fmul contract <8 x double> %173, %173
+  %175 = fmul contract <8 x double> %173, %174
+  %176 = fmul contract <8 x double> %174, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %177 = fadd contract <8 x double> %176, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %178 = fmul contract <8 x double> %174, %177
+  %179 = fadd contract <8 x double> %178, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %180 = fmul contract <8 x double> %174, %179
+  %181 = fadd contract <8 x double> %180, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %182 = fmul contract <8 x double> %174, %181
+  %183 = fadd contract <8 x double> %182, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %184 = fmul contract <8 x double> %174, %183
+  %185 = fadd contract <8 x double> %184, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %186 = fmul contract <8 x double> %175, %185
+  %187 = fadd contract <8 x double> %173, %186
+  %188 = fmul contract <8 x double> %174, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %189 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %188
+  %190 = fmul contract <8 x double> %174, %174
+  %191 = fmul contract <8 x double> %174, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %192 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %191
+  %193 = fmul contract <8 x double> %174, %192
+  %194 = fadd contract <8 x double> %193, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %195 = fmul contract <8 x double> %174, %194
+  %196 = fadd contract <8 x double> %195, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %197 = fmul contract <8 x double> %174, %196
+  %198 = fadd contract <8 x double> %197, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %199 = fmul contract <8 x double> %174, %198
+  %200 = fadd contract <8 x double> %199, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %201 = fmul contract <8 x double> %190, %200
+  %202 = fadd contract <8 x double> %189, %201
+  %203 = fmul contract <8 x double> %172, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %204 = fmul contract <8 x double> %203, %187
+  %205 = fmul contract <8 x double> %202, %204
+  %206 = fmul contract <8 x double> %187, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %207 = fmul contract <8 x double> %187, %206
+  %208 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %207
+  %209 = fmul contract <8 x double> %172, %208
+  br label %210
+
+210:
+  %211 = phi i64 [ 0, %156 ], [ %230, %210 ]
+  %212 = mul nuw nsw i64 %211, 3
+  %213 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %212
+  %214 = load <8 x double>, ptr %213, align 64
+  %215 = fmul contract <8 x double> %209, %214
+  %216 = add nuw nsw i64 %212, 1
+  %217 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %216
+  %218 = load <8 x double>, ptr %217, align 64
+  %219 = fmul contract <8 x double> %205, %218
+  %220 = fadd contract <8 x double> %215, %219
+  %221 = getelementptr inbounds [9 x <8 x double>], ptr %93, i64 0, i64 %212
+  store <8 x double> %220, ptr %221, align 64
+  %222 = fmul contract <8 x double> %209, %218
+  %223 = fmul contract <8 x double> %205, %214
+  %224 = fsub contract <8 x double> %222, %223
+  %225 = getelementptr inbounds [9 x <8 x double>], ptr %93, i64 0, i64 %216
+  store <8 x double> %224, ptr %225, align 64
+  %226 = add nuw nsw i64 %212, 2
+  %227 = getelementptr inbounds [9 x <8 x double>], ptr %4, i64 0, i64 %226
+  %228 = load <8 x double>, ptr %227, align 64
+  %229 = getelementptr inbounds [9 x <8 x double>], ptr %93, i64 0, i64 %226
+  store <8 x double> %228, ptr %229, align 64
+  %230 = add nuw nsw i64 %211, 1
+  %231 = icmp eq i64 %230, 3
+  br i1 %231, label %232, label %210
+
+232:
+  call void @llvm.lifetime.end.p0(i64 576, ptr nonnull %4)
+  %233 = icmp eq i64 %34, %8
+  br i1 %233, label %234, label %30
+
+234:
+  %235 = getelementptr inbounds i8, ptr %1, i64 48
+  %236 = load ptr, ptr %235, align 8
+  %237 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %8
+  %238 = getelementptr inbounds i8, ptr %236, i64 72
+  %239 = load double, ptr %238, align 8
+  %240 = getelementptr inbounds i8, ptr %236, i64 80
+  %241 = load double, ptr %240, align 8
+  %242 = getelementptr inbounds i8, ptr %236, i64 88
+  %243 = load double, ptr %242, align 8
+  %244 = getelementptr inbounds i8, ptr %237, i64 576
+  %245 = load <8 x double>, ptr %244, align 64
+  %246 = load <8 x double>, ptr %237, align 64
+  %247 = insertelement <8 x double> poison, double %239, i64 0
+  %248 = shufflevector <8 x double> %247, <8 x double> poison, <8 x i32> zeroinitializer
+  %249 = fmul contract <8 x double> %248, %246
+  %250 = fadd contract <8 x double> %245, %249
+  %251 = getelementptr inbounds i8, ptr %237, i64 64
+  %252 = load <8 x double>, ptr %251, align 64
+  %253 = insertelement <8 x double> poison, double %241, i64 0
+  %254 = shufflevector <8 x double> %253, <8 x double> poison, <8 x i32> zeroinitializer
+  %255 = fmul contract <8 x double> %254, %252
+  %256 = fadd contract <8 x double> %250, %255
+  %257 = getelementptr inbounds i8, ptr %237, i64 128
+  %258 = load <8 x double>, ptr %257, align 64
+  %259 = insertelement <8 x double> poison, double %243, i64 0
+  %260 = shufflevector <8 x double> %259, <8 x double> poison, <8 x i32> zeroinitializer
+  %261 = fmul contract <8 x double> %260, %258
+  %262 = fadd contract <8 x double> %256, %261
+  %263 = getelementptr inbounds i8, ptr %237, i64 640
+  %264 = load <8 x double>, ptr %263, align 64
+  %265 = getelementptr inbounds i8, ptr %237, i64 192
+  %266 = load <8 x double>, ptr %265, align 64
+  %267 = fmul contract <8 x double> %248, %266
+  %268 = fadd contract <8 x double> %264, %267
+  %269 = getelementptr inbounds i8, ptr %237, i64 256
+  %270 = load <8 x double>, ptr %269, align 64
+  %271 = fmul contract <8 x double> %254, %270
+  %272 = fadd contract <8 x double> %268, %271
+  %273 = getelementptr inbounds i8, ptr %237, i64 320
+  %274 = load <8 x double>, ptr %273, align 64
+  %275 = fmul contract <8 x double> %260, %274
+  %276 = fadd contract <8 x double> %272, %275
+  %277 = getelementptr inbounds i8, ptr %237, i64 704
+  %278 = load <8 x double>, ptr %277, align 64
+  %279 = getelementptr inbounds i8, ptr %237, i64 384
+  %280 = load <8 x double>, ptr %279, align 64
+  %281 = fmul contract <8 x double> %248, %280
+  %282 = fadd contract <8 x double> %278, %281
+  %283 = getelementptr inbounds i8, ptr %237, i64 448
+  %284 = load <8 x double>, ptr %283, align 64
+  %285 = fmul contract <8 x double> %254, %284
+  %286 = fadd contract <8 x double> %282, %285
+  %287 = getelementptr inbounds i8, ptr %237, i64 512
+  %288 = load <8 x double>, ptr %287, align 64
+  %289 = fmul contract <8 x double> %260, %288
+  %290 = fadd contract <8 x double> %286, %289
+  store i64 0, ptr %0, align 64
+  %291 = getelementptr inbounds i8, ptr %1, i64 8
+  %292 = load i64, ptr %291, align 8
+  %293 = icmp sgt i64 %292, 0
+  br i1 %293, label %294, label %304
+
+294:
+  %295 = getelementptr inbounds i8, ptr %1, i64 40
+  %296 = getelementptr inbounds i8, ptr %0, i64 1600
+  %297 = getelementptr inbounds i8, ptr %0, i64 3136
+  %298 = getelementptr inbounds i8, ptr %1, i64 88
+  %299 = getelementptr inbounds i8, ptr %0, i64 64
+  %300 = getelementptr inbounds i8, ptr %6, i64 64
+  %301 = getelementptr inbounds i8, ptr %6, i64 128
+  %302 = getelementptr inbounds i8, ptr %7, i64 64
+  %303 = getelementptr inbounds i8, ptr %7, i64 128
+  br label %305
+
+304:
+  call void @llvm.lifetime.end.p0(i64 49920, ptr nonnull %5)
+  ret void
+
+305:
+  %306 = phi i64 [ 0, %294 ], [ %898, %897 ]
+  %307 = phi i64 [ 0, %294 ], [ %899, %897 ]
+  %308 = load ptr, ptr %295, align 8
+  %309 = getelementptr inbounds %struct.Constraint, ptr %308, i64 %307
+  %310 = load i64, ptr %309, align 8
+  %311 = icmp eq i64 %310, 0
+  br i1 %311, label %422, label %312
+
+312:
+  %313 = icmp sgt i64 %310, 0
+  br i1 %313, label %314, label %320
+
+314:
+  %315 = getelementptr inbounds i8, ptr %309, i64 24
+  %316 = getelementptr inbounds i8, ptr %309, i64 96
+  %317 = getelementptr inbounds i8, ptr %309, i64 104
+  %318 = getelementptr inbounds i8, ptr %309, i64 112
+  %319 = load i64, ptr %0, align 64
+  br label %325
+
+320:
+  %321 = phi <8 x double> [ zeroinitializer, %312 ], [ %360, %416 ]
+  %322 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %321)
+  %323 = add nsw i64 %306, 1
+  %324 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %306
+  store <8 x double> %322, ptr %324, align 64
+  br label %422
+
+325:
+  %326 = phi i64 [ %319, %314 ], [ %418, %416 ]
+  %327 = phi <8 x double> [ zeroinitializer, %314 ], [ %360, %416 ]
+  %328 = phi i64 [ 0, %314 ], [ %419, %416 ]
+  %329 = mul i64 %328, 24
+  %330 = getelementptr inbounds i8, ptr %315, i64 %329
+  %331 = load double, ptr %316, align 8
+  %332 = insertelement <8 x double> poison, double %331, i64 0
+  %333 = shufflevector <8 x double> %332, <8 x double> poison, <8 x i32> zeroinitializer
+  %334 = fsub contract <8 x double> %333, %262
+  %335 = load double, ptr %330, align 8
+  %336 = insertelement <8 x double> poison, double %335, i64 0
+  %337 = shufflevector <8 x double> %336, <8 x double> poison, <8 x i32> zeroinitializer
+  %338 = fmul contract <8 x double> %334, %337
+  %339 = load double, ptr %317, align 8
+  %340 = insertelement <8 x double> poison, double %339, i64 0
+  %341 = shufflevector <8 x double> %340, <8 x double> poison, <8 x i32> zeroinitializer
+  %342 = fsub contract <8 x double> %341, %276
+  %343 = getelementptr inbounds i8, ptr %330, i64 8
+  %344 = load double, ptr %343, align 8
+  %345 = insertelement <8 x double> poison, double %344, i64 0
+  %346 = shufflevector <8 x double> %345, <8 x double> poison, <8 x i32> zeroinitializer
+  %347 = fmul contract <8 x double> %342, %346
+  %348 = fadd contract <8 x double> %338, %347
+  %349 = load double, ptr %318, align 8
+  %350 = insertelement <8 x double> poison, double %349, i64 0
+  %351 = shufflevector <8 x double> %350, <8 x double> poison, <8 x i32> zeroinitializer
+  %352 = fsub contract <8 x double> %351, %290
+  %353 = getelementptr inbounds i8, ptr %330, i64 16
+  %354 = load double, ptr %353, align 8
+  %355 = insertelement <8 x double> poison, double %354, i64 0
+  %356 = shufflevector <8 x double> %355, <8 x double> poison, <8 x i32> zeroinitializer
+  %357 = fmul contract <8 x double> %352, %356
+  %358 = fadd contract <8 x double> %348, %357
+  %359 = fmul contract <8 x double> %358, %358
+  %360 = fadd contract <8 x double> %327, %359
+  %361 = fadd contract <8 x double> %337, zeroinitializer
+  %362 = fadd contract <8 x double> %345, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %363 = shufflevector <8 x double> %362, <8 x double> poison, <8 x i32> zeroinitializer
+  %364 = fadd contract <8 x double> %355, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %365 = shufflevector <8 x double> %364, <8 x double> poison, <8 x i32> zeroinitializer
+  %366 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %326
+  store <8 x double> %358, ptr %366, align 64
+  br i1 %24, label %367, label %416
+
+367:
+  %368 = phi i64 [ %369, %411 ], [ 0, %325 ]
+  %369 = add nuw nsw i64 %368, 1
+  %370 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %369
+  %371 = getelementptr inbounds i8, ptr %370, i64 128
+  %372 = load <8 x double>, ptr %371, align 64
+  %373 = getelementptr inbounds i8, ptr %370, i64 320
+  %374 = load <8 x double>, ptr %373, align 64
+  %375 = getelementptr inbounds i8, ptr %370, i64 512
+  %376 = load <8 x double>, ptr %375, align 64
+  %377 = load ptr, ptr %298, align 8
+  %378 = getelementptr inbounds double, ptr %377, i64 %368
+  %379 = load double, ptr %378, align 8
+  %380 = fcmp contract une double %379, 0.000000e+00
+  br i1 %380, label %387, label %381
+
+381:
+  %382 = fmul contract <8 x double> %361, %372
+  %383 = fmul contract <8 x double> %363, %374
+  %384 = fadd contract <8 x double> %382, %383
+  %385 = fmul contract <8 x double> %365, %376
+  %386 = fadd contract <8 x double> %384, %385
+  br label %411
+
+387:
+  %388 = getelementptr inbounds i8, ptr %370, i64 704
+  %389 = load <8 x double>, ptr %388, align 64
+  %390 = fsub contract <8 x double> %290, %389
+  %391 = getelementptr inbounds i8, ptr %370, i64 640
+  %392 = load <8 x double>, ptr %391, align 64
+  %393 = fsub contract <8 x double> %276, %392
+  %394 = getelementptr inbounds i8, ptr %370, i64 576
+  %395 = load <8 x double>, ptr %394, align 64
+  %396 = fsub contract <8 x double> %262, %395
+  %397 = fmul contract <8 x double> %374, %390
+  %398 = fmul contract <8 x double> %376, %393
+  %399 = fsub contract <8 x double> %397, %398
+  %400 = fmul contract <8 x double> %361, %399
+  %401 = fmul contract <8 x double> %376, %396
+  %402 = fmul contract <8 x double> %372, %390
+  %403 = fsub contract <8 x double> %401, %402
+  %404 = fmul contract <8 x double> %363, %403
+  %405 = fadd contract <8 x double> %400, %404
+  %406 = fmul contract <8 x double> %372, %393
+  %407 = fmul contract <8 x double> %374, %396
+  %408 = fsub contract <8 x double> %406, %407
+  %409 = fmul contract <8 x double> %365, %408
+  %410 = fadd contract <8 x double> %409, %405
+  br label %411
+
+411:
+  %412 = phi <8 x double> [ %410, %387 ], [ %386, %381 ]
+  %413 = load i64, ptr %0, align 64
+  %414 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %413, i64 %368
+  store <8 x double> %412, ptr %414, align 64
+  %415 = icmp eq i64 %369, %8
+  br i1 %415, label %416, label %367
+
+416:
+  %417 = load i64, ptr %0, align 64
+  %418 = add nsw i64 %417, 1
+  store i64 %418, ptr %0, align 64
+  %419 = add nuw nsw i64 %328, 1
+  %420 = load i64, ptr %309, align 8
+  %421 = icmp slt i64 %419, %420
+  br i1 %421, label %325, label %320
+
+422:
+  %423 = phi i64 [ %323, %320 ], [ %306, %305 ]
+  %424 = getelementptr inbounds i8, ptr %309, i64 8
+  %425 = load i64, ptr %424, align 8
+  %426 = icmp eq i64 %425, 0
+  br i1 %426, label %596, label %427
+
+427:
+  %428 = getelementptr inbounds i8, ptr %309, i64 120
+  br label %525
+
+429:
+  %430 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %578)
+  %431 = add nsw i64 %423, 1
+  %432 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %423
+  store <8 x double> %430, ptr %432, align 64
+  %433 = load i64, ptr %0, align 64
+  %434 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %433
+  store <8 x double> %583, ptr %434, align 64
+  br i1 %24, label %442, label %435
+
+435:
+  %436 = load i64, ptr %0, align 64
+  %437 = add nsw i64 %436, 1
+  store i64 %437, ptr %0, align 64
+  %438 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %437
+  store <8 x double> %588, ptr %438, align 64
+  %439 = load i64, ptr %0, align 64
+  %440 = add nsw i64 %439, 1
+  store i64 %440, ptr %0, align 64
+  %441 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %440
+  store <8 x double> %593, ptr %441, align 64
+  br label %522
+
+442:
+  %443 = phi i64 [ %444, %461 ], [ 0, %429 ]
+  %444 = add nuw nsw i64 %443, 1
+  %445 = load ptr, ptr %298, align 8
+  %446 = getelementptr inbounds double, ptr %445, i64 %443
+  %447 = load double, ptr %446, align 8
+  %448 = fcmp contract oeq double %447, 0.000000e+00
+  br i1 %448, label %461, label %449
+
+449:
+  %450 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %444
+  %451 = getelementptr inbounds i8, ptr %450, i64 512
+  %452 = load <8 x double>, ptr %451, align 64
+  %453 = getelementptr inbounds i8, ptr %450, i64 320
+  %454 = load <8 x double>, ptr %453, align 64
+  %455 = getelementptr inbounds i8, ptr %450, i64 128
+  %456 = load <8 x double>, ptr %455, align 64
+  %457 = fmul contract <8 x double> %454, zeroinitializer
+  %458 = fadd contract <8 x double> %456, %457
+  %459 = fmul contract <8 x double> %452, zeroinitializer
+  %460 = fadd contract <8 x double> %459, %458
+  br label %461
+
+461:
+  %462 = phi contract <8 x double> [ %460, %449 ], [ zeroinitializer, %442 ]
+  %463 = load i64, ptr %0, align 64
+  %464 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %463, i64 %443
+  store <8 x double> %462, ptr %464, align 64
+  %465 = icmp eq i64 %444, %8
+  br i1 %465, label %466, label %442
+
+466:
+  %467 = load i64, ptr %0, align 64
+  %468 = add nsw i64 %467, 1
+  store i64 %468, ptr %0, align 64
+  %469 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %468
+  store <8 x double> %588, ptr %469, align 64
+  br label %470
+
+470:
+  %471 = phi i64 [ 0, %466 ], [ %472, %489 ]
+  %472 = add nuw nsw i64 %471, 1
+  %473 = load ptr, ptr %298, align 8
+  %474 = getelementptr inbounds double, ptr %473, i64 %471
+  %475 = load double, ptr %474, align 8
+  %476 = fcmp contract oeq double %475, 0.000000e+00
+  br i1 %476, label %489, label %477
+
+477:
+  %478 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %472
+  %479 = getelementptr inbounds i8, ptr %478, i64 512
+  %480 = load <8 x double>, ptr %479, align 64
+  %481 = getelementptr inbounds i8, ptr %478, i64 320
+  %482 = load <8 x double>, ptr %481, align 64
+  %483 = getelementptr inbounds i8, ptr %478, i64 128
+  %484 = load <8 x double>, ptr %483, align 64
+  %485 = fmul contract <8 x double> %484, zeroinitializer
+  %486 = fadd contract <8 x double> %482, %485
+  %487 = fmul contract <8 x double> %480, zeroinitializer
+  %488 = fadd contract <8 x double> %487, %486
+  br label %489
+
+489:
+  %490 = phi contract <8 x double> [ %488, %477 ], [ zeroinitializer, %470 ]
+  %491 = load i64, ptr %0, align 64
+  %492 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %491, i64 %471
+  store <8 x double> %490, ptr %492, align 64
+  %493 = icmp eq i64 %472, %8
+  br i1 %493, label %494, label %470
+
+494:
+  %495 = load i64, ptr %0, align 64
+  %496 = add nsw i64 %495, 1
+  store i64 %496, ptr %0, align 64
+  %497 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %496
+  store <8 x double> %593, ptr %497, align 64
+  br label %498
+
+498:
+  %499 = phi i64 [ 0, %494 ], [ %500, %517 ]
+  %500 = add nuw nsw i64 %499, 1
+  %501 = load ptr, ptr %298, align 8
+  %502 = getelementptr inbounds double, ptr %501, i64 %499
+  %503 = load double, ptr %502, align 8
+  %504 = fcmp contract oeq double %503, 0.000000e+00
+  br i1 %504, label %517, label %505
+
+505:
+  %506 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %500
+  %507 = getelementptr inbounds i8, ptr %506, i64 512
+  %508 = load <8 x double>, ptr %507, align 64
+  %509 = getelementptr inbounds i8, ptr %506, i64 320
+  %510 = load <8 x double>, ptr %509, align 64
+  %511 = getelementptr inbounds i8, ptr %506, i64 128
+  %512 = load <8 x double>, ptr %511, align 64
+  %513 = fmul contract <8 x double> %512, zeroinitializer
+  %514 = fmul contract <8 x double> %510, zeroinitializer
+  %515 = fadd contract <8 x double> %514, %513
+  %516 = fadd contract <8 x double> %508, %515
+  br label %517
+
+517:
+  %518 = phi contract <8 x double> [ %516, %505 ], [ zeroinitializer, %498 ]
+  %519 = load i64, ptr %0, align 64
+  %520 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %519, i64 %499
+  store <8 x double> %518, ptr %520, align 64
+  %521 = icmp eq i64 %500, %8
+  br i1 %521, label %522, label %498
+
+522:
+  %523 = load i64, ptr %0, align 64
+  %524 = add nsw i64 %523, 1
+  store i64 %524, ptr %0, align 64
+  br label %897
+
+525:
+  %526 = phi <8 x double> [ zeroinitializer, %427 ], [ %578, %525 ]
+  %527 = phi <8 x double> [ zeroinitializer, %427 ], [ %593, %525 ]
+  %528 = phi <8 x double> [ zeroinitializer, %427 ], [ %588, %525 ]
+  %529 = phi <8 x double> [ zeroinitializer, %427 ], [ %583, %525 ]
+  %530 = phi i64 [ 0, %427 ], [ %594, %525 ]
+  %531 = getelementptr inbounds double, ptr %236, i64 %530
+  %532 = load double, ptr %531, align 8
+  %533 = getelementptr inbounds i8, ptr %531, i64 24
+  %534 = load double, ptr %533, align 8
+  %535 = getelementptr inbounds i8, ptr %531, i64 48
+  %536 = load double, ptr %535, align 8
+  %537 = insertelement <8 x double> poison, double %532, i64 0
+  %538 = shufflevector <8 x double> %537, <8 x double> poison, <8 x i32> zeroinitializer
+  %539 = fmul contract <8 x double> %246, %538
+  %540 = insertelement <8 x double> poison, double %534, i64 0
+  %541 = shufflevector <8 x double> %540, <8 x double> poison, <8 x i32> zeroinitializer
+  %542 = fmul contract <8 x double> %252, %541
+  %543 = fadd contract <8 x double> %539, %542
+  %544 = insertelement <8 x double> poison, double %536, i64 0
+  %545 = shufflevector <8 x double> %544, <8 x double> poison, <8 x i32> zeroinitializer
+  %546 = fmul contract <8 x double> %258, %545
+  %547 = fadd contract <8 x double> %543, %546
+  %548 = fmul contract <8 x double> %266, %538
+  %549 = fmul contract <8 x double> %270, %541
+  %550 = fadd contract <8 x double> %548, %549
+  %551 = fmul contract <8 x double> %274, %545
+  %552 = fadd contract <8 x double> %550, %551
+  %553 = fmul contract <8 x double> %280, %538
+  %554 = fmul contract <8 x double> %284, %541
+  %555 = fadd contract <8 x double> %553, %554
+  %556 = fmul contract <8 x double> %288, %545
+  %557 = fadd contract <8 x double> %555, %556
+  %558 = getelementptr inbounds double, ptr %428, i64 %530
+  %559 = load double, ptr %558, align 8
+  %560 = insertelement <8 x double> poison, double %559, i64 0
+  %561 = shufflevector <8 x double> %560, <8 x double> poison, <8 x i32> zeroinitializer
+  %562 = fsub contract <8 x double> %547, %561
+  %563 = getelementptr inbounds i8, ptr %558, i64 24
+  %564 = load double, ptr %563, align 8
+  %565 = insertelement <8 x double> poison, double %564, i64 0
+  %566 = shufflevector <8 x double> %565, <8 x double> poison, <8 x i32> zeroinitializer
+  %567 = fsub contract <8 x double> %552, %566
+  %568 = getelementptr inbounds i8, ptr %558, i64 48
+  %569 = load double, ptr %568, align 8
+  %570 = insertelement <8 x double> poison, double %569, i64 0
+  %571 = shufflevector <8 x double> %570, <8 x double> poison, <8 x i32> zeroinitializer
+  %572 = fsub contract <8 x double> %557, %571
+  %573 = fmul contract <8 x double> %562, %562
+  %574 = fmul contract <8 x double> %567, %567
+  %575 = fadd contract <8 x double> %573, %574
+  %576 = fmul contract <8 x double> %572, %572
+  %577 = fadd contract <8 x double> %575, %576
+  %578 = fadd contract <8 x double> %526, %577
+  %579 = fmul contract <8 x double> %552, %571
+  %580 = fmul contract <8 x double> %557, %566
+  %581 = fsub contract <8 x double> %579, %580
+  %582 = fmul contract <8 x double> %581, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %583 = fadd contract <8 x double> %529, %582
+  %584 = fmul contract <8 x double> %561, %557
+  %585 = fmul contract <8 x double> %547, %571
+  %586 = fsub contract <8 x double> %584, %585
+  %587 = fmul contract <8 x double> %586, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %588 = fadd contract <8 x double> %528, %587
+  %589 = fmul contract <8 x double> %547, %566
+  %590 = fmul contract <8 x double> %561, %552
+  %591 = fsub contract <8 x double> %589, %590
+  %592 = fmul contract <8 x double> %591, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %593 = fadd contract <8 x double> %527, %592
+  %594 = add nuw nsw i64 %530, 1
+  %595 = icmp eq i64 %594, 3
+  br i1 %595, label %429, label %525
+
+596:
+  %597 = getelementptr inbounds i8, ptr %309, i64 16
+  %598 = load i64, ptr %597, align 8
+  %599 = icmp eq i64 %598, 0
+  br i1 %599, label %897, label %600
+
+600:
+  %601 = getelementptr inbounds i8, ptr %309, i64 192
+  %602 = getelementptr inbounds i8, ptr %309, i64 216
+  %603 = load double, ptr %602, align 8
+  %604 = insertelement <8 x double> poison, double %603, i64 0
+  %605 = shufflevector <8 x double> %604, <8 x double> poison, <8 x i32> zeroinitializer
+  %606 = fmul contract <8 x double> %246, %605
+  %607 = getelementptr inbounds i8, ptr %309, i64 224
+  %608 = load double, ptr %607, align 8
+  %609 = insertelement <8 x double> poison, double %608, i64 0
+  %610 = shufflevector <8 x double> %609, <8 x double> poison, <8 x i32> zeroinitializer
+  %611 = fmul contract <8 x double> %252, %610
+  %612 = fadd contract <8 x double> %606, %611
+  %613 = getelementptr inbounds i8, ptr %309, i64 232
+  %614 = load double, ptr %613, align 8
+  %615 = insertelement <8 x double> poison, double %614, i64 0
+  %616 = shufflevector <8 x double> %615, <8 x double> poison, <8 x i32> zeroinitializer
+  %617 = fmul contract <8 x double> %258, %616
+  %618 = fadd contract <8 x double> %612, %617
+  %619 = fmul contract <8 x double> %266, %605
+  %620 = fmul contract <8 x double> %270, %610
+  %621 = fadd contract <8 x double> %619, %620
+  %622 = fmul contract <8 x double> %274, %616
+  %623 = fadd contract <8 x double> %621, %622
+  %624 = fmul contract <8 x double> %280, %605
+  %625 = fmul contract <8 x double> %284, %610
+  %626 = fadd contract <8 x double> %624, %625
+  %627 = fmul contract <8 x double> %288, %616
+  %628 = fadd contract <8 x double> %626, %627
+  %629 = getelementptr inbounds i8, ptr %309, i64 208
+  %630 = load double, ptr %629, align 8
+  %631 = insertelement <8 x double> poison, double %630, i64 0
+  %632 = shufflevector <8 x double> %631, <8 x double> poison, <8 x i32> zeroinitializer
+  %633 = fmul contract <8 x double> %632, %623
+  %634 = getelementptr inbounds i8, ptr %309, i64 200
+  %635 = load double, ptr %634, align 8
+  %636 = insertelement <8 x double> poison, double %635, i64 0
+  %637 = shufflevector <8 x double> %636, <8 x double> poison, <8 x i32> zeroinitializer
+  %638 = fmul contract <8 x double> %628, %637
+  %639 = fsub contract <8 x double> %633, %638
+  %640 = load double, ptr %601, align 8
+  %641 = insertelement <8 x double> poison, double %640, i64 0
+  %642 = shufflevector <8 x double> %641, <8 x double> poison, <8 x i32> zeroinitializer
+  %643 = fmul contract <8 x double> %628, %642
+  %644 = fmul contract <8 x double> %632, %618
+  %645 = fsub contract <8 x double> %643, %644
+  %646 = fmul contract <8 x double> %618, %637
+  %647 = fmul contract <8 x double> %623, %642
+  %648 = fsub contract <8 x double> %646, %647
+  %649 = fmul contract <8 x double> %639, %639
+  %650 = fmul contract <8 x double> %645, %645
+  %651 = fadd contract <8 x double> %649, %650
+  %652 = fmul contract <8 x double> %648, %648
+  %653 = fadd contract <8 x double> %652, %651
+  %654 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %653)
+  %655 = fmul contract <8 x double> %618, %642
+  %656 = fmul contract <8 x double> %623, %637
+  %657 = fadd contract <8 x double> %656, %655
+  %658 = fmul contract <8 x double> %632, %628
+  %659 = fadd contract <8 x double> %658, %657
+  %660 = fcmp contract ogt <8 x double> %659, zeroinitializer
+  %661 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %654
+  %662 = select contract <8 x i1> %660, <8 x double> %654, <8 x double> %661
+  %663 = add nsw i64 %423, 1
+  %664 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %423
+  store <8 x double> %662, ptr %664, align 64
+  %665 = getelementptr inbounds i8, ptr %309, i64 240
+  %666 = load double, ptr %665, align 8
+  %667 = fcmp contract une double %666, 0.000000e+00
+  br i1 %667, label %721, label %668
+
+668:
+  call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %6)
+  store <8 x double> %618, ptr %6, align 64
+  store <8 x double> %623, ptr %300, align 64
+  store <8 x double> %628, ptr %301, align 64
+  call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %7)
+  store <8 x double> %639, ptr %7, align 64
+  store <8 x double> %645, ptr %302, align 64
+  store <8 x double> %648, ptr %303, align 64
+  %669 = load i64, ptr %0, align 64
+  br label %671
+
+670:
+  call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %7)
+  call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %6)
+  br label %897
+
+671:
+  %672 = phi i64 [ %669, %668 ], [ %718, %716 ]
+  %673 = phi i64 [ 0, %668 ], [ %719, %716 ]
+  %674 = getelementptr inbounds [3 x <8 x double>], ptr %6, i64 0, i64 %673
+  %675 = load <8 x double>, ptr %674, align 64
+  %676 = getelementptr inbounds [3 x <8 x double>], ptr %7, i64 0, i64 %673
+  %677 = load <8 x double>, ptr %676, align 64
+  %678 = getelementptr inbounds [3 x %struct.Point.7], ptr @__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit, i64 0, i64 %673
+  %679 = load <8 x double>, ptr %678, align 64
+  %680 = fmul contract <8 x double> %618, %675
+  %681 = fsub contract <8 x double> %679, %680
+  %682 = getelementptr inbounds i8, ptr %678, i64 64
+  %683 = load <8 x double>, ptr %682, align 64
+  %684 = fmul contract <8 x double> %623, %675
+  %685 = fsub contract <8 x double> %683, %684
+  %686 = getelementptr inbounds i8, ptr %678, i64 128
+  %687 = load <8 x double>, ptr %686, align 64
+  %688 = fmul contract <8 x double> %628, %675
+  %689 = fsub contract <8 x double> %687, %688
+  %690 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %672
+  store <8 x double> %677, ptr %690, align 64
+  br i1 %24, label %691, label %716
+
+691:
+  %692 = phi i64 [ %693, %711 ], [ 0, %671 ]
+  %693 = add nuw nsw i64 %692, 1
+  %694 = load ptr, ptr %298, align 8
+  %695 = getelementptr inbounds double, ptr %694, i64 %692
+  %696 = load double, ptr %695, align 8
+  %697 = fcmp contract oeq double %696, 0.000000e+00
+  br i1 %697, label %711, label %698
+
+698:
+  %699 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %693
+  %700 = getelementptr inbounds i8, ptr %699, i64 512
+  %701 = load <8 x double>, ptr %700, align 64
+  %702 = getelementptr inbounds i8, ptr %699, i64 320
+  %703 = load <8 x double>, ptr %702, align 64
+  %704 = getelementptr inbounds i8, ptr %699, i64 128
+  %705 = load <8 x double>, ptr %704, align 64
+  %706 = fmul contract <8 x double> %681, %705
+  %707 = fmul contract <8 x double> %685, %703
+  %708 = fadd contract <8 x double> %707, %706
+  %709 = fmul contract <8 x double> %689, %701
+  %710 = fadd contract <8 x double> %709, %708
+  br label %711
+
+711:
+  %712 = phi contract <8 x double> [ %710, %698 ], [ zeroinitializer, %691 ]
+  %713 = load i64, ptr %0, align 64
+  %714 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %713, i64 %692
+  store <8 x double> %712, ptr %714, align 64
+  %715 = icmp eq i64 %693, %8
+  br i1 %715, label %716, label %691
+
+716:
+  %717 = load i64, ptr %0, align 64
+  %718 = add nsw i64 %717, 1
+  store i64 %718, ptr %0, align 64
+  %719 = add nuw nsw i64 %673, 1
+  %720 = icmp eq i64 %719, 3
+  br i1 %720, label %670, label %671
+
+721:
+  %722 = load double, ptr %601, align 8
+  %723 = insertelement <8 x double> poison, double %722, i64 0
+  %724 = shufflevector <8 x double> %723, <8 x double> poison, <8 x i32> zeroinitializer
+  %725 = fsub contract <8 x double> %618, %724
+  %726 = load double, ptr %634, align 8
+  %727 = insertelement <8 x double> poison, double %726, i64 0
+  %728 = shufflevector <8 x double> %727, <8 x double> poison, <8 x i32> zeroinitializer
+  %729 = fsub contract <8 x double> %623, %728
+  %730 = load double, ptr %629, align 8
+  %731 = insertelement <8 x double> poison, double %730, i64 0
+  %732 = shufflevector <8 x double> %731, <8 x double> poison, <8 x i32> zeroinitializer
+  %733 = fsub contract <8 x double> %628, %732
+  %734 = fmul contract <8 x double> %725, %725
+  %735 = fmul contract <8 x double> %729, %729
+  %736 = fadd contract <8 x double> %734, %735
+  %737 = fmul contract <8 x double> %733, %733
+  %738 = fadd contract <8 x double> %736, %737
+  %739 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %738)
+  %740 = fmul contract <8 x double> %739, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %741 = fmul contract <8 x double> %740, %740
+  %742 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %741
+  %743 = fcmp contract ogt <8 x double> %742, zeroinitializer
+  %744 = select contract <8 x i1> %743, <8 x double> %742, <8 x double> zeroinitializer
+  %745 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %744)
+  %746 = fmul contract double %666, 4.500000e-01
+  %747 = fadd contract double %746, 0.000000e+00
+  %748 = insertelement <8 x double> poison, double %747, i64 0
+  %749 = shufflevector <8 x double> %748, <8 x double> poison, <8 x i32> zeroinitializer
+  %750 = fmul contract <8 x double> %749, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %751 = fadd contract <8 x double> %750, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %752 = fadd contract <8 x double> %751, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %753 = fmul contract <8 x double> %752, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %754 = fsub contract <8 x double> %749, %753
+  %755 = fmul contract <8 x double> %752, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %756 = fsub contract <8 x double> %754, %755
+  %757 = fmul contract <8 x double> %752, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %758 = fsub contract <8 x double> %756, %757
+  %759 = fmul contract <8 x double> %752, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %760 = fadd contract <8 x double> %759, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %761 = fadd contract <8 x double> %760, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %762 = fsub contract <8 x double> %759, %761
+  %763 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %762)
+  %764 = fmul contract <8 x double> %763, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %765 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %764
+  %766 = fmul contract <8 x double> %758, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %767 = fmul contract <8 x double> %766, %766
+  %768 = fmul contract <8 x double> %766, %767
+  %769 = fmul contract <8 x double> %767, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %770 = fadd contract <8 x double> %769, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %771 = fmul contract <8 x double> %767, %770
+  %772 = fadd contract <8 x double> %771, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %773 = fmul contract <8 x double> %767, %772
+  %774 = fadd contract <8 x double> %773, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %775 = fmul contract <8 x double> %767, %774
+  %776 = fadd contract <8 x double> %775, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %777 = fmul contract <8 x double> %767, %776
+  %778 = fadd contract <8 x double> %777, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %779 = fmul contract <8 x double> %768, %778
+  %780 = fadd contract <8 x double> %766, %779
+  %781 = fmul contract <8 x double> %767, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %782 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %781
+  %783 = fmul contract <8 x double> %767, %767
+  %784 = fmul contract <8 x double> %767, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %785 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %784
+  %786 = fmul contract <8 x double> %767, %785
+  %787 = fadd contract <8 x double> %786, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %788 = fmul contract <8 x double> %767, %787
+  %789 = fadd contract <8 x double> %788, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %790 = fmul contract <8 x double> %767, %789
+  %791 = fadd contract <8 x double> %790, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %792 = fmul contract <8 x double> %767, %791
+  %793 = fadd contract <8 x double> %792, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %794 = fmul contract <8 x double> %783, %793
+  %795 = fadd contract <8 x double> %782, %794
+  %796 = fmul contract <8 x double> %765, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %797 = fmul contract <8 x double> %796, %780
+  %798 = fmul contract <8 x double> %795, %797
+  %799 = fadd contract double %666, -1.000000e-09
+  %800 = fmul contract double %799, 5.000000e-01
+  %801 = fadd contract double %800, 0.000000e+00
+  %802 = insertelement <8 x double> poison, double %801, i64 0
+  %803 = shufflevector <8 x double> %802, <8 x double> poison, <8 x i32> zeroinitializer
+  %804 = fmul contract <8 x double> %803, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %805 = fadd contract <8 x double> %804, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %806 = fadd contract <8 x double> %805, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %807 = fmul contract <8 x double> %806, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %808 = fsub contract <8 x double> %803, %807
+  %809 = fmul contract <8 x double> %806, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %810 = fsub contract <8 x double> %808, %809
+  %811 = fmul contract <8 x double> %806, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %812 = fsub contract <8 x double> %810, %811
+  %813 = fmul contract <8 x double> %806, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %814 = fadd contract <8 x double> %813, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %815 = fadd contract <8 x double> %814, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %816 = fsub contract <8 x double> %813, %815
+  %817 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %816)
+  %818 = fmul contract <8 x double> %817, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %819 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %818
+  %820 = fmul contract <8 x double> %812, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %821 = fmul contract <8 x double> %820, %820
+  %822 = fmul contract <8 x double> %820, %821
+  %823 = fmul contract <8 x double> %821, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %824 = fadd contract <8 x double> %823, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %825 = fmul contract <8 x double> %821, %824
+  %826 = fadd contract <8 x double> %825, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %827 = fmul contract <8 x double> %821, %826
+  %828 = fadd contract <8 x double> %827, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %829 = fmul contract <8 x double> %821, %828
+  %830 = fadd contract <8 x double> %829, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %831 = fmul contract <8 x double> %821, %830
+  %832 = fadd contract <8 x double> %831, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %833 = fmul contract <8 x double> %822, %832
+  %834 = fadd contract <8 x double> %820, %833
+  %835 = fmul contract <8 x double> %821, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %836 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %835
+  %837 = fmul contract <8 x double> %821, %821
+  %838 = fmul contract <8 x double> %821, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %839 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %838
+  %840 = fmul contract <8 x double> %821, %839
+  %841 = fadd contract <8 x double> %840, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %842 = fmul contract <8 x double> %821, %841
+  %843 = fadd contract <8 x double> %842, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %844 = fmul contract <8 x double> %821, %843
+  %845 = fadd contract <8 x double> %844, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %846 = fmul contract <8 x double> %821, %845
+  %847 = fadd contract <8 x double> %846, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %848 = fmul contract <8 x double> %837, %847
+  %849 = fadd contract <8 x double> %836, %848
+  %850 = fmul contract <8 x double> %819, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %851 = fmul contract <8 x double> %850, %834
+  %852 = fmul contract <8 x double> %849, %851
+  %853 = fcmp contract ogt <8 x double> %740, %852
+  %854 = fcmp contract ogt <8 x double> %654, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %855 = select contract <8 x i1> %854, <8 x double> %654, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %856 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %855
+  %857 = select contract <8 x i1> %853, <8 x double> %856, <8 x double> zeroinitializer
+  %858 = fsub contract <8 x double> %740, %798
+  %859 = fmul contract <8 x double> %858, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %860 = fcmp contract ogt <8 x double> %745, <double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01>
+  %861 = select contract <8 x i1> %860, <8 x double> %745, <8 x double> <double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01>
+  %862 = fdiv contract <8 x double> %859, %861
+  %863 = select contract <8 x i1> %853, <8 x double> %862, <8 x double> zeroinitializer
+  %864 = fmul contract <8 x double> %639, %857
+  %865 = fmul contract <8 x double> %645, %857
+  %866 = fmul contract <8 x double> %648, %857
+  %867 = load i64, ptr %0, align 64
+  %868 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %867
+  store <8 x double> %863, ptr %868, align 64
+  br i1 %24, label %869, label %894
+
+869:
+  %870 = phi i64 [ %871, %889 ], [ 0, %721 ]
+  %871 = add nuw nsw i64 %870, 1
+  %872 = load ptr, ptr %298, align 8
+  %873 = getelementptr inbounds double, ptr %872, i64 %870
+  %874 = load double, ptr %873, align 8
+  %875 = fcmp contract oeq double %874, 0.000000e+00
+  br i1 %875, label %889, label %876
+
+876:
+  %877 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %871
+  %878 = getelementptr inbounds i8, ptr %877, i64 512
+  %879 = load <8 x double>, ptr %878, align 64
+  %880 = getelementptr inbounds i8, ptr %877, i64 320
+  %881 = load <8 x double>, ptr %880, align 64
+  %882 = getelementptr inbounds i8, ptr %877, i64 128
+  %883 = load <8 x double>, ptr %882, align 64
+  %884 = fmul contract <8 x double> %864, %883
+  %885 = fmul contract <8 x double> %865, %881
+  %886 = fadd contract <8 x double> %885, %884
+  %887 = fmul contract <8 x double> %866, %879
+  %888 = fadd contract <8 x double> %887, %886
+  br label %889
+
+889:
+  %890 = phi contract <8 x double> [ %888, %876 ], [ zeroinitializer, %869 ]
+  %891 = load i64, ptr %0, align 64
+  %892 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %891, i64 %870
+  store <8 x double> %890, ptr %892, align 64
+  %893 = icmp eq i64 %871, %8
+  br i1 %893, label %894, label %869
+
+894:
+  %895 = load i64, ptr %0, align 64
+  %896 = add nsw i64 %895, 1
+  store i64 %896, ptr %0, align 64
+  br label %897
+
+897:
+  %898 = phi i64 [ %431, %522 ], [ %423, %596 ], [ %663, %894 ], [ %663, %670 ]
+  %899 = add nuw nsw i64 %307, 1
+  %900 = load i64, ptr %291, align 8
+  %901 = icmp slt i64 %899, %900
+  br i1 %901, label %305, label %304
+}
 
 declare float @llvm.sqrt.f32(float)
 

@@ -112,10 +112,16 @@ class _Bodies(NamedTuple):
     links: IndexArray
 
 
+def tabulate_joints(arm: Arm) -> FloatArray:
+    """Return the table of joints (n, 13) of :class:`SceneTables`."""
+    frames, _ = align_joint_frames(arm)
+    return np.column_stack([frames[:, :3, :3].reshape(-1, 9), frames[:, :3, 3], arm.prismatic])
+
+
 @lru_cache(maxsize=16)
 def _collect_bodies(arm: Arm, capsules: Capsules, has_objects: bool) -> _Bodies:
     """Collect the joints, capsules, and, if there are objects, the spheres of an arm."""
-    frames, maps = align_joint_frames(arm)
+    _, maps = align_joint_frames(arm)
     by_link = sorted(range(len(capsules)), key=lambda index: capsules.parts[index].link)
     parts = [capsules.parts[index] for index in by_link]
     part_links = np.array([part.link + 1 for part in parts], dtype=np.int64)
@@ -130,7 +136,7 @@ def _collect_bodies(arm: Arm, capsules: Capsules, has_objects: bool) -> _Bodies:
         centers = _to_axis_frames(cover.center[moving][:, None], links, maps)[:, 0]
         spheres = np.column_stack([centers, cover.radius[moving]])
     tables = {
-        "joints": np.column_stack([frames[:, :3, :3].reshape(-1, 9), frames[:, :3, 3], arm.prismatic]),
+        "joints": tabulate_joints(arm),
         "first_sphere": np.searchsorted(links, np.arange(arm.n + 2)),
         "spheres": spheres,
         "enclosing": _enclose_by_link(spheres, links, arm.n),

@@ -137,29 +137,39 @@ class ConnectedCells:
         )
 
     @cached_property
-    def _cumulative_counts(self) -> IndexArray:
-        """Number of connected cells whose indices are below each corner of the grid."""
-        counts = np.zeros((self.cells_per_joint + 1,) * self.cells.shape[1], dtype=np.int64)
-        counts[tuple(self.cells.T + 1)] = 1
-        for axis in range(counts.ndim):
-            counts = counts.cumsum(axis=axis)
-        return counts
+    def _codes_by_level(self) -> list[IndexArray]:
+        """Sorted codes of the connected cells, of the groups of 2 cells per joint that contain any, of 4, and so on."""
+        levels = range(self.cells_per_joint.bit_length())
+        return [np.unique(self._encode_cells(self.cells >> level)) for level in levels]
+
+    def _encode_cells(self, cells: IndexArray) -> IndexArray:
+        """Return a number for each of cells (N, f)."""
+        return np.asarray(np.ravel_multi_index(tuple(cells.T), (self.cells_per_joint,) * cells.shape[1]))
 
     def excludes_boxes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
-        """Return (N,) True where no configuration within ``half_widths`` (N, n) of q (N, n) is in a connected cell."""
+        """Return (N,) True where no configuration within ``half_widths`` (N, n) of q (N, n) is in a connected cell.
+
+        A box is compared with the cells, or with the smallest groups of cells of which it meets at most two per joint.
+        """
         positions, widths = q[:, self.joints], half_widths[:, self.joints]
         positions = np.where(self.is_unlimited, np.arctan2(np.sin(positions), np.cos(positions)), positions)
         first_cells = np.floor((positions - widths - self.lower - _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
-        last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64) + 1
+        last_cells = np.floor((positions + widths - self.lower + _ROUNDING_SLACK) / self.cell_widths).astype(np.int64)
         # Beyond a full revolution, any value is possible.
-        wraps_around = self.is_unlimited & ((first_cells < 0) | (last_cells > self.cells_per_joint))
-        first_cells = np.clip(np.where(wraps_around, 0, first_cells), 0, self.cells_per_joint)
-        last_cells = np.clip(np.where(wraps_around, self.cells_per_joint, last_cells), 0, self.cells_per_joint)
-        cell_counts = np.zeros(len(q), dtype=np.int64)
-        for corner in product((0, 1), repeat=len(self.joints)):
-            sign = (-1) ** (len(corner) - sum(corner))
-            cell_counts += sign * self._cumulative_counts[tuple(np.where(corner, last_cells, first_cells).T)]
-        return np.asarray(cell_counts == 0)
+        last_cell = self.cells_per_joint - 1
+        wraps_around = self.is_unlimited & ((first_cells < 0) | (last_cells > last_cell))
+        first_cells, last_cells = np.where(wraps_around, 0, first_cells), np.where(wraps_around, last_cell, last_cells)
+        is_excluded = np.asarray(((last_cells < 0) | (first_cells > last_cell)).any(axis=1))
+        first_cells, last_cells = np.clip(first_cells, 0, last_cell), np.clip(last_cells, 0, last_cell)
+        levels = np.ceil(np.log2(np.maximum((last_cells - first_cells).max(axis=1), 1))).astype(np.int64)
+        for level in np.unique(levels[~is_excluded]):
+            boxes = np.flatnonzero(~is_excluded & (levels == level))
+            meets_any = np.zeros(len(boxes), dtype=bool)
+            for corner in product((False, True), repeat=len(self.joints)):
+                cells = np.where(corner, last_cells[boxes], first_cells[boxes]) >> level
+                meets_any |= np.isin(self._encode_cells(cells), self._codes_by_level[level])
+            is_excluded[boxes] = ~meets_any
+        return is_excluded
 
 
 def _generate_connected_regions(
