@@ -91,20 +91,6 @@ def test_no_proved_piece_breaks_a_row(types, rng):
             assert (proved == held).mean() > 0.9  # and few that could be proved are not
 
 
-@pytest.mark.interpreted
-def test_the_curvature_is_a_bound(rng):
-    arm = oracles.random_arm(rng, types="RRPRCP", limits=2.0)
-    q, d, h = oracles.inside(arm, rng, 40), rng.normal(size=(40, arm.n)), 1e-3
-    one = tool_constraints.rail([0, 0, 1]).anchor(oracles.forward(arm, q[:1])[0])
-    one = replace(one, normals=np.eye(3))
-    limits = np.minimum(arm.lower, -10), np.maximum(arm.upper, 10)
-    bound = ConstraintManifold(arm, [one], np.ones(arm.n, dtype=bool), limits).bound_curvature(d)
-    back, here, on = (oracles.forward(arm, q + s * d) for s in (-h, 0, h))
-    second = (back - 2 * here + on) / h**2
-    assert (np.linalg.norm(second[:, :3, 3], axis=1) <= bound[:, 0] * (1 + 1e-3)).all()
-    assert (np.linalg.norm(second[:, :3, :3], axis=(1, 2)) <= bound[:, 1] * (1 + 1e-3)).all()
-
-
 # ---- extensions and boxes ------------------------------------------------------------------------------------------------
 
 
@@ -169,6 +155,39 @@ def test_extensions_come_nearer_and_hold_all_along(types, rng):
 
 
 @pytest.mark.interpreted
+@pytest.mark.parametrize("types", ["RRRRRRR", "RPRRCR"])
+def test_rows_and_slopes_by_finite_differences(types, rng):
+    arm = oracles.random_arm(rng, types=types, limits=2.5)
+    for q in oracles.inside(arm, rng, 10):
+        for constraint in draw_constraints(rng, arm.forward_kinematics(q)):
+            manifold = ConstraintManifold(arm, [constraint], np.ones(arm.n, dtype=bool), (arm.lower, arm.upper))
+            near = q + rng.normal(0, 0.25, arm.n)
+            lengths, rows, slopes = (values[0] for values in manifold.compiled.evaluate_errors(near[None]))
+            steps = near + 1e-6 * np.concatenate([np.zeros((1, arm.n)), np.eye(arm.n), -np.eye(arm.n)])
+            away, turned = constraint.distances(oracles.forward(arm, steps))
+            expected = []
+            if len(constraint.normals):
+                expected.append((away[0], away, rows[: len(constraint.normals)], 1.0))
+            if constraint.widest < np.inf:
+                length = 2 * np.sqrt(2) * np.sin(turned[0] / 2) if constraint.turned else np.sin(turned[0])
+                rotation_rows = rows[len(constraint.normals) :]
+                if constraint.angle and not constraint.turned:
+                    assert (rotation_rows[0] > 0) == (turned[0] > constraint.angle)
+                # The rows are the chord of the angle, which a rotation about their direction reduces by its slope.
+                expected.append((length, 2 * np.sin(turned / 2), rotation_rows, np.cos(turned[0] / 2)))
+            np.testing.assert_allclose(lengths, [length for length, *_ in expected], atol=1e-12)
+            first_row = 0
+            for _, errors, its_rows, factor in expected:
+                its_slopes = slopes[first_row : first_row + len(its_rows)]
+                first_row += len(its_rows)
+                if np.linalg.norm(its_rows) > 0:
+                    differences = (errors[1 : arm.n + 1] - errors[arm.n + 1 :]) / 2e-6
+                    reduction = its_rows @ its_slopes / np.linalg.norm(its_rows)
+                    np.testing.assert_allclose(differences, -reduction * factor, atol=1e-5)
+            assert first_row == len(rows)
+
+
+@pytest.mark.interpreted
 @pytest.mark.parametrize("types", ["RRRRR", "RPRRC"])
 def test_no_box_with_a_configuration_that_is_allowed_is_left_out(types, rng):
     arm = oracles.random_arm(rng, types=types, limits=2.5)
@@ -208,8 +227,8 @@ def test_first_and_last_joints_that_do_not_change_a_tilt(panda, tilted, rng):
 
 def test_too_many_constraints_are_refused(panda):
     q = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.0])
-    keep = [tool_constraints.upright(0.3, direction=panda.forward_kinematics(q)[:3, 2])] * 9
-    with pytest.raises(InputError, match="27 rows; at most 64 joints and 24 rows"):
+    keep = [tool_constraints.upright(0.3, direction=panda.forward_kinematics(q)[:3, 2])] * 25
+    with pytest.raises(InputError, match="25 rows; at most 64 joints and 24 rows"):
         hf.recover(panda, ["panda_joint3"], q, goal=q + 0.1, task="pose", samples=0, clearance=False, keep=keep)
 
 

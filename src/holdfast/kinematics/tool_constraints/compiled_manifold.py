@@ -13,7 +13,7 @@ from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.configurations import align_joint_frames
 from holdfast.model.arm.model import Arm
 from holdfast.model.collision.compiled.edges import EdgeChecker
-from holdfast.model.collision.compiled.library import load_library
+from holdfast.model.collision.compiled.library import list_fields, load_library
 from holdfast.model.collision.compiled.scene import tabulate_joints
 
 # As in constraint_manifold.hpp.
@@ -26,11 +26,11 @@ class _Constraint(Structure):
     """Structure ``Constraint`` of constraint_manifold.hpp."""
 
     _fields_ = (
-        *((name, c_int64) for name in ("normal_count", "is_turned", "has_axis")),
-        *(
-            (name, c_double * size)
-            for name, size in (("normals", 9), ("anchor", 3), ("rotation", 9), ("direction", 3), ("axis", 3))
-        ),
+        *list_fields(c_int64, "normal_count is_turned has_axis"),
+        *list_fields(c_double * 9, "normals"),
+        *list_fields(c_double * 3, "anchor"),
+        *list_fields(c_double * 9, "rotation"),
+        *list_fields(c_double * 3, "direction axis"),
         ("angle", c_double),
     )
 
@@ -39,21 +39,9 @@ class _Manifold(Structure):
     """Structure ``Manifold``."""
 
     _fields_ = (
-        *((name, c_int64) for name in ("joint_count", "constraint_count", "length_count", "has_largest_joint_metric")),
-        *(
-            (name, c_void_p)
-            for name in (
-                "joints",
-                "constraints",
-                "tool",
-                "bounds",
-                "slacks",
-                "low",
-                "high",
-                "is_revolute",
-                "second_derivatives",
-                "scale",
-            )
+        *list_fields(c_int64, "joint_count constraint_count length_count has_largest_joint_metric"),
+        *list_fields(
+            c_void_p, "joints constraints tool bounds slacks low high is_revolute lever_arms second_derivatives scale"
         ),
     )
 
@@ -62,10 +50,10 @@ class _Extensions(Structure):
     """Structure ``Extensions``."""
 
     _fields_ = (
-        *((name, c_void_p) for name in ("starts", "targets", "may_arrive")),
-        *((name, c_int64) for name in ("count", "max_steps")),
+        *list_fields(c_void_p, "starts targets may_arrive"),
+        *list_fields(c_int64, "count max_steps"),
         ("resolution", c_double),
-        *((name, c_void_p) for name in ("zeros", "points", "point_counts", "has_arrived")),
+        *list_fields(c_void_p, "zeros points point_counts has_arrived"),
     )
 
 
@@ -77,6 +65,7 @@ class CompiledManifold:
         keep: Anchored constraints.
         bounds, slacks: (R,) largest lengths of the errors, and the part of them that one step may use.
         limits: (n,) lower and (n,) upper limits of the joints, rad and m; equal for joints that do not move.
+        lever_arms: (n,) largest motion of the tool per unit of each joint.
         second_derivatives: (n, n) bounds of the second derivatives of the tool's position.
 
     Raises:
@@ -90,9 +79,10 @@ class CompiledManifold:
         bounds: FloatArray,
         slacks: FloatArray,
         limits: tuple[FloatArray, FloatArray],
+        lever_arms: FloatArray,
         second_derivatives: FloatArray,
     ) -> None:
-        row_count = sum(len(constraint.normals) + 3 * (constraint.widest < np.inf) for constraint in keep)
+        self._row_count = row_count = sum(map(_count_rows, keep))
         if arm.n > _MAX_JOINTS or row_count > _MAX_ROWS:
             raise InputError(
                 f"'{arm.name}' has {arm.n} joints, and the tool constraints have {row_count} rows; at most {_MAX_JOINTS} "
@@ -103,12 +93,30 @@ class CompiledManifold:
         self._library, self._n = load_library(), arm.n
         self._constraints = (_Constraint * len(keep))(*(_tabulate_constraint(constraint, tool[:3, :3]) for constraint in keep))
         arrays = [tabulate_joints(arm), np.append(tool[:3, :3], tool[:3, 3]), bounds, slacks, *limits, ~arm.prismatic]
-        self._arrays = [
-            np.ascontiguousarray(array, dtype=np.float64) for array in (*arrays, second_derivatives, np.ones(arm.n))
-        ]
+        arrays += [lever_arms, second_derivatives, np.ones(arm.n)]
+        self._arrays = [np.ascontiguousarray(array, dtype=np.float64) for array in arrays]
         joints, *others = (array.ctypes.data for array in self._arrays)
         counts = arm.n, len(keep), len(bounds), False
         self._manifold = _Manifold(*counts, joints, addressof(self._constraints), *others)
+
+    def evaluate_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the lengths (N, R) of the errors at q (N, n), their rows (N, k), 0 if met, and their slopes (N, k, n).
+
+        The slopes of a row state how the motion of the joints reduces its error.
+        """
+        q = np.ascontiguousarray(q)
+        lengths, rows = np.empty((len(q), self._manifold.length_count)), np.empty((len(q), self._row_count))
+        slopes = np.empty((*rows.shape, self._n))
+        outputs = (array.ctypes.data for array in (lengths, rows, slopes))
+        self._library.evaluate_errors(addressof(self._manifold), q.ctypes.data, len(q), *outputs)
+        return lengths, rows, slopes
+
+    def exclude_boxes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+        """Return (N,) True where a constraint is violated at every configuration within ``half_widths`` (n,) of q (N, n)."""
+        arrays, is_excluded = [np.ascontiguousarray(values) for values in (q, half_widths)], np.zeros(len(q), dtype=np.bool_)
+        addresses = (array.ctypes.data for array in arrays)
+        self._library.exclude_boxes(addressof(self._manifold), *addresses, len(q), is_excluded.ctypes.data)
+        return is_excluded
 
     def prove_edges(self, starts: FloatArray, differences: FloatArray, reserves: FloatArray) -> BoolArray:
         """Return (E,) True where all constraints are proved to hold on straight edges.
@@ -156,6 +164,11 @@ class CompiledManifold:
         scene = None if edges is None else edges.double.address
         self._library.extend_paths(addressof(self._manifold), scene, byref(extensions))
         return [path[:count].copy() for path, count in zip(points, counts, strict=True)], has_arrived
+
+
+def _count_rows(constraint: ToolConstraint) -> int:
+    is_cone = constraint.angle > 0 and not constraint.turned
+    return len(constraint.normals) + (0 if constraint.widest == np.inf else 1 if is_cone else 3)
 
 
 def _tabulate_constraint(constraint: ToolConstraint, tool_rotation: FloatArray) -> _Constraint:

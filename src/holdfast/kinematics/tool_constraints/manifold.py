@@ -21,7 +21,6 @@ from holdfast.kinematics.tool_constraints.compiled_manifold import CompiledManif
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
 from holdfast.model.arm.configurations import bound_axis_distances
 from holdfast.model.arm.model import Arm
-from holdfast.model.arm.poses import rotation_vectors
 
 More = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
 """Errors (N, k) and slopes (N, k, n) of further equations, for configurations (N, n) and the numbers of their rows."""
@@ -31,7 +30,6 @@ _EQUALITY_TOLERANCE = 1e-8  # m and rad: error below which an exact row is met
 _CONE_FRACTION = 0.9  # of a cone's opening: axes outside are projected to there, which leaves a margin for the next segment
 _PROJECTION_STEPS = 12  # steps
 _MAX_NEWTON_STEP = 0.3  # rad or m of one joint in one step
-_NO_BOUND = 1e300  # of a slope; an infinite number times 0 would be undefined
 _PARALLEL_TOLERANCE = 1e-10  # largest sine of the angle of two axes that count as parallel
 
 
@@ -61,9 +59,8 @@ class ConstraintManifold:
         lever_arms = np.where(arm.prismatic, 1.0, bound_axis_distances(arm, tool_length, extensions))
         self._revolute = (~arm.prismatic).astype(np.float64)
         self._lever_arms = lever_arms
-        self._second_derivative_bounds = (
-            lever_arms[np.maximum.outer(joint_index, joint_index)] * self._revolute[np.minimum.outer(joint_index, joint_index)]
-        )
+        larger, smaller = (outer(joint_index, joint_index) for outer in (np.maximum.outer, np.minimum.outer))
+        second_derivatives = lever_arms[larger] * self._revolute[smaller]
         bounds, is_equality = [], []
         for constraint in self.keep:
             if len(constraint.normals):
@@ -78,7 +75,7 @@ class ConstraintManifold:
         self._bounds = np.array(bounds)
         self.has_equalities = any(is_equality)
         slacks = np.where(is_equality, 1.0, 1 - _CONE_FRACTION) * self._bounds
-        self.compiled = CompiledManifold(arm, self.keep, self._bounds, slacks, limits, self._second_derivative_bounds)
+        self.compiled = CompiledManifold(arm, self.keep, self._bounds, slacks, limits, lever_arms, second_derivatives)
         self.changing_joints = self._find_changing_joints()
 
     def _find_changing_joints(self) -> BoolArray:
@@ -97,42 +94,11 @@ class ConstraintManifold:
 
     def constraint_margins(self, q: FloatArray) -> FloatArray:
         """Return the margins (N, R) of the constraints at q (N, n), m and about rad; below 0 if one is violated."""
-        return np.asarray(self._bounds + _ROUNDING_M_RAD - self._error_lengths(self.arm.forward_kinematics(q)))
+        return np.asarray(self._bounds + _ROUNDING_M_RAD - self.compiled.evaluate_errors(q)[0])
 
     def is_satisfied(self, q: FloatArray) -> BoolArray:
         """Return (N,) True where all constraints are met at q (N, n)."""
         return np.asarray((self.constraint_margins(q) >= 0).all(axis=1))
-
-    def _error_lengths(self, poses: FloatArray) -> FloatArray:
-        """Return the lengths (N, R) of the error vectors, which must not exceed the bounds."""
-        lengths = []
-        for constraint in self.keep:
-            assert constraint.pose is not None
-            if len(constraint.normals):
-                lengths.append(np.linalg.norm((poses[:, :3, 3] - constraint.pose[:3, 3]) @ constraint.normals.T, axis=1))
-            if constraint.turned:
-                lengths.append(np.linalg.norm(poses[:, :3, :3] - constraint.pose[:3, :3], axis=(1, 2)))
-            elif constraint.direction is not None:
-                axis = poses[:, :3, :3] @ constraint.axis
-                cosine = axis @ constraint.direction
-                sine = np.linalg.norm(axis - cosine[:, None] * constraint.direction, axis=1)
-                lengths.append(np.where(cosine > 0, sine, 2 - sine))  # beyond 90 deg it points away, for any sine
-        return np.stack(lengths, axis=1)
-
-    def bound_curvature(self, d: FloatArray) -> FloatArray:
-        """Bound the second derivatives (N, R) of the error vectors for motions d (N, n)."""
-        joint_travel = np.abs(d)
-        position_bound = ((joint_travel @ self._second_derivative_bounds) * joint_travel).sum(axis=1)
-        rotation_bound = (joint_travel @ self._revolute) ** 2
-        bounds = []
-        for constraint in self.keep:
-            if len(constraint.normals):
-                bounds.append(position_bound)
-            if constraint.turned:
-                bounds.append(np.sqrt(2) * rotation_bound)
-            elif constraint.direction is not None:
-                bounds.append(rotation_bound)
-        return np.stack(bounds, axis=1)
 
     def bound_changes(self, d: FloatArray) -> FloatArray:
         """Bound the change (N, R) of the error vectors if joints move by d (N, n)."""
@@ -146,33 +112,7 @@ class ConstraintManifold:
 
     def are_boxes_violated(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where a constraint is violated at every configuration within ``half_widths`` (n,) of q (N, n)."""
-        half_widths = np.where(self.changing_joints, half_widths, 0.0)[None]
-        poses = self.arm.forward_kinematics(q)
-        margins = self._bounds - self._error_lengths(poses)
-        slopes = self._error_slopes(poses, self.arm.jacobian(q))
-        changes = np.minimum(
-            self.bound_changes(half_widths), np.abs(slopes) @ half_widths[0] + self.bound_curvature(half_widths) / 2
-        )
-        return np.asarray((margins + changes < -2 * _ROUNDING_M_RAD).any(axis=1))
-
-    def _error_slopes(self, poses: FloatArray, jacobians: FloatArray) -> FloatArray:
-        """Return the slopes (N, R, n) of the lengths of the error vectors; without a bound where an axis points away."""
-        slopes = []
-        for constraint in self.keep:
-            assert constraint.pose is not None
-            if len(constraint.normals):
-                offset = (poses[:, :3, 3] - constraint.pose[:3, 3]) @ constraint.normals.T @ constraint.normals
-                slopes.append(_unit_vectors(offset)[:, None] @ jacobians[:, :3])
-            if constraint.turned:
-                rotation = np.cross(poses[:, :3, :3], constraint.pose[:3, :3], axisa=1, axisb=0).sum(axis=1)
-                length = np.linalg.norm(poses[:, :3, :3] - constraint.pose[:3, :3], axis=(1, 2))
-                slopes.append(-(rotation / np.maximum(length, 1e-12)[:, None])[:, None] @ jacobians[:, 3:])
-            elif constraint.direction is not None:
-                axis = poses[:, :3, :3] @ constraint.axis
-                cosine = (axis @ constraint.direction)[:, None]
-                rotation = np.cross(axis, _unit_vectors(axis - cosine * constraint.direction))
-                slopes.append(np.where(cosine[:, None] > 0, rotation[:, None] @ jacobians[:, 3:], _NO_BOUND))
-        return np.concatenate(slopes, axis=1)
+        return self.compiled.exclude_boxes(q, np.where(self.changing_joints, half_widths, 0.0))
 
     def prove_edges(self, a: FloatArray, b: FloatArray, deviation: FloatArray | None = None) -> BoolArray:
         """Return (E,) True where all constraints are proved to hold on the whole straight segment from a to b (E, n).
@@ -193,7 +133,7 @@ class ConstraintManifold:
         q = q.copy()
         moving = np.arange(len(q))
         for _ in range(_PROJECTION_STEPS):
-            errors, jacobians = self._constraint_errors(q[moving])
+            _, errors, jacobians = self.compiled.evaluate_errors(q[moving])
             if extra_equations is not None:
                 extra_terms = extra_equations(q[moving], moving)
                 errors = np.concatenate([errors, extra_terms[0]], axis=1)
@@ -219,51 +159,3 @@ class ConstraintManifold:
             movable = movable & ~beyond_limits
         step *= np.minimum(1.0, _MAX_NEWTON_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
         return np.asarray(np.where(movable, np.clip(q + step, self._low, self._high), q))
-
-    def _constraint_errors(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the errors (N, k) of equality constraints, and of violated cones, with their Jacobians (N, k, n)."""
-        poses, jacobian = self.arm.forward_kinematics(q), self.arm.jacobian(q)
-        errors, jacobians = [], []
-        for constraint in self.keep:
-            assert constraint.pose is not None
-            if len(constraint.normals):
-                errors.append((constraint.pose[:3, 3] - poses[:, :3, 3]) @ constraint.normals.T)
-                jacobians.append(constraint.normals @ jacobian[:, :3])
-            if constraint.turned:
-                errors.append(rotation_vectors(constraint.pose[:3, :3] @ poses[:, :3, :3].transpose(0, 2, 1)))
-                jacobians.append(jacobian[:, 3:])
-            elif constraint.direction is not None:
-                cone_error, rotation_axes = _cone_error(constraint, poses[:, :3, :3] @ constraint.axis)
-                errors.append(cone_error)
-                jacobians.append(rotation_axes @ jacobian[:, 3:])
-        return np.concatenate(errors, axis=1), np.concatenate(jacobians, axis=1)
-
-
-def _cone_error(constraint: ToolConstraint, axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the angles by which axes (N, 3) must rotate to their direction or into the cone, and the axes (N, k, 3)."""
-    assert constraint.direction is not None
-    x, y, z = constraint.direction.tolist()
-    across = axis @ np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])  # of few rows, as here, np.cross takes longer
-    sine = np.linalg.norm(across, axis=1)
-    angle = np.arctan2(sine, axis @ constraint.direction)
-    rotation_axis, is_parallel = across / np.maximum(sine, 1e-12)[:, None], sine <= 1e-9
-    if is_parallel.any():
-        rotation_axis[is_parallel] = _perpendicular_vectors(axis[is_parallel])
-    if constraint.angle == 0:
-        return angle[:, None] * rotation_axis, np.eye(3) - axis[:, :, None] * axis[:, None, :]
-    outside = angle > constraint.angle - _ROUNDING_M_RAD
-    return np.where(outside, angle - _CONE_FRACTION * constraint.angle, 0.0)[:, None], np.where(
-        outside[:, None], rotation_axis, 0.0
-    )[:, None, :]
-
-
-def _unit_vectors(vectors: FloatArray) -> FloatArray:
-    """Return vectors (N, 3) with length 1, or shorter if they are nearly 0."""
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12))
-
-
-def _perpendicular_vectors(axis: FloatArray) -> FloatArray:
-    """Return unit vectors perpendicular to axes (N, 3)."""
-    least_aligned = np.eye(3)[np.abs(axis).argmin(axis=1)]
-    across = np.cross(axis, least_aligned)
-    return np.asarray(across / np.linalg.norm(across, axis=1, keepdims=True))

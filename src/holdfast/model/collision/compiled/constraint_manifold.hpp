@@ -1,7 +1,7 @@
 // Tool constraints along edges in joint space, and extensions of paths along them; part of route_search.cpp.
 //
-// The module tool_constraints/manifold.py contains the same constraints and explains the bounds. There are one or two lengths of
-// each constraint, that of its position error and that of its rotation error, and neither may exceed its bound.
+// The module tool_constraints/manifold.py explains the bounds. There are one or two lengths of each constraint, that of its
+// position error and that of its rotation error, and neither may exceed its bound.
 
 constexpr Int MAX_CHAIN = 64;  // joints of an arm
 constexpr Int MAX_ROWS = 24;  // equations of all constraints together, of which each length has up to three
@@ -11,6 +11,7 @@ constexpr double ROUNDING = 1e-9;  // m and rad
 constexpr double CONE_FRACTION = 0.9;  // of a cone's opening, to which axes outside are projected
 constexpr double MAX_NEWTON_STEP = 0.3;  // rad or m of one joint
 constexpr double SHORTEST_PIECE = 1.0 / 256;  // of an edge; a shorter piece that is not proved counts as a violation
+constexpr double NO_BOUND = 1e200;
 constexpr double MIN_PROGRESS = 0.1;  // of a step: smallest progress towards the end
 
 typedef Lanes<double>::V Reals;
@@ -30,6 +31,7 @@ struct Manifold {
   const double *bounds, *slacks;  // (lengths) largest lengths, and the part of them that a step may use
   const double *low, *high;  // (n) limits, equal for joints that do not move
   const double *is_revolute;  // (n) 1 or 0
+  const double *lever_arms;  // (n) largest motion of the tool per unit of each joint
   const double *second_derivatives;  // (n, n) bounds of those of the position
   const double *scale;  // (n) of the joints in the length of a path
 };
@@ -49,8 +51,9 @@ INLINE Reals absolute(Reals x) { return __builtin_elementwise_abs(x); }
 
 // Lengths of the errors at configurations, and with ``has_rows`` the equations that are not met, with their slopes by joints.
 struct Errors {
-  Int row_count;
+  Int row_count, end_rows[MAX_ROWS];  // after the rows of each length
   Reals lengths[MAX_ROWS], rows[MAX_ROWS], slopes[MAX_ROWS][MAX_CHAIN];
+  Reals ratios[MAX_ROWS];  // of the slopes of a length and of the norm of its rows
 
   template <bool has_rows> void evaluate(const Manifold &manifold, const Reals *q) {
     typedef Point<Reals> P;
@@ -89,6 +92,7 @@ struct Errors {
           square += error * error;
           if (has_rows) add_row(error, {none + normal[0], none + normal[1], none + normal[2]}, false);
         }
+        ratios[length] = none + 1.0, end_rows[length] = row_count;
         lengths[length++] = square_root(square);
       }
       if (c.is_turned) {
@@ -103,35 +107,37 @@ struct Errors {
           turn.x += 0.5 * (is.y * r[6] - is.z * r[3]), turn.y += 0.5 * (is.z * r[0] - is.x * r[6]);
           turn.z += 0.5 * (is.x * r[3] - is.y * r[0]);
         }
+        // The chord grows with the angle up to 180 deg, and for small errors it is the angle.
+        const Reals chord = square_root(0.5 * square), scale = chord / larger(square_root(dot(turn, turn)), none + 1e-12);
+        if (has_rows)
+          add_row(turn.x * scale, unit[0], true), add_row(turn.y * scale, unit[1], true), add_row(turn.z * scale, unit[2], true);
+        ratios[length] = square_root(2.0 * larger(1.0 - 0.25 * chord * chord, none)), end_rows[length] = row_count;
         lengths[length++] = square_root(square);
-        if (has_rows) add_row(turn.x, unit[0], true), add_row(turn.y, unit[1], true), add_row(turn.z, unit[2], true);
       } else if (c.has_axis) {
         const double *d = c.direction;
         const P axis = frames[n].rotate(c.axis);
         const P across = {axis.y * d[2] - axis.z * d[1], axis.z * d[0] - axis.x * d[2], axis.x * d[1] - axis.y * d[0]};
-        const Reals sine = square_root(dot(across, across)), cosine = axis.x * d[0] + axis.y * d[1] + axis.z * d[2];
-        lengths[length++] = cosine > 0.0 ? sine : 2.0 - sine;  // beyond 90 deg it points away, for any sine
-        if (!has_rows) continue;
-        if (c.angle == 0) {
+        const P gap = {axis.x - d[0], axis.y - d[1], axis.z - d[2]};
+        const Reals chord = square_root(dot(gap, gap)), sine = square_root(dot(across, across));
+        const Reals cosine = axis.x * d[0] + axis.y * d[1] + axis.z * d[2], scale = 1.0 / larger(sine, none + 1e-12);
+        if (has_rows && c.angle == 0) {
           const Reals components[3] = {axis.x, axis.y, axis.z}, errors[3] = {across.x, across.y, across.z};
           for (Int row = 0; row < 3; row++) {
             const Reals a = components[row];
-            add_row(errors[row], {unit[row].x - a * axis.x, unit[row].y - a * axis.y, unit[row].z - a * axis.z}, true);
+            const P v = {unit[row].x - a * axis.x, unit[row].y - a * axis.y, unit[row].z - a * axis.z};
+            add_row(errors[row] * chord * scale, v, true);
           }
-          continue;
+        } else if (has_rows) {
+          Reals allowed_sine, edge_sine, allowed_cosine, edge_cosine;
+          sine_and_cosine(none + 0.5 * CONE_FRACTION * c.angle, allowed_sine, allowed_cosine);
+          sine_and_cosine(none + 0.5 * (c.angle - ROUNDING), edge_sine, edge_cosine);
+          const auto is_outside = chord > 2.0 * edge_sine;
+          const Reals half_cosine = square_root(larger(1.0 - 0.25 * chord * chord, none + 0.01)), used = is_outside ? scale : none;
+          const Reals error = is_outside ? (chord - 2.0 * allowed_sine) / half_cosine : none;
+          add_row(error, {across.x * used, across.y * used, across.z * used}, true);
         }
-        // The chord between axis and direction grows with their angle up to 180 deg; for small errors it gives the angle's.
-        const P chord = {axis.x - d[0], axis.y - d[1], axis.z - d[2]};
-        const Reals half_sine = 0.5 * square_root(dot(chord, chord)), half_cosine = square_root(larger(1.0 - half_sine * half_sine, none));
-        const double allowed = 0.5 * CONE_FRACTION * c.angle;
-        Reals allowed_sine, allowed_cosine, edge_sine, edge_cosine;
-        sine_and_cosine(none + allowed, allowed_sine, allowed_cosine);
-        sine_and_cosine(none + 0.5 * (c.angle - ROUNDING), edge_sine, edge_cosine);
-        const auto is_outside = half_sine > edge_sine;
-        const Reals scale = 1.0 / larger(sine, none + 1e-12);
-        const Reals used = is_outside ? scale : none;
-        add_row(is_outside ? 2.0 * (half_sine - allowed_sine) / larger(half_cosine, none + 0.1) : none,
-                {across.x * used, across.y * used, across.z * used}, true);
+        ratios[length] = cosine > 0.0 ? cosine : none + NO_BOUND, end_rows[length] = row_count;
+        lengths[length++] = cosine > 0.0 ? sine : 2.0 - sine;  // beyond 90 deg it points away, for any sine
       }
     }
   }
@@ -149,6 +155,68 @@ INLINE void bound_curvature(const Manifold &manifold, const Reals *d, Reals *bou
     const Constraint &c = manifold.constraints[k];
     if (c.normal_count) bounds[length++] = position;
     if (c.is_turned || c.has_axis) bounds[length++] = turn * turn * (c.is_turned ? 1.41421356237309515 : 1.0);
+  }
+}
+
+// Write 1 for each box around q (count, n) in which a constraint is violated everywhere, else 0. From the middle of the box, the
+// length of an error changes by at most its slopes there, and half its second derivative.
+static void exclude_boxes(const Manifold &manifold, const double *middles, const double *half_widths, Int count, char *is_excluded) {
+  constexpr Int COUNT = Lanes<double>::COUNT;
+  const Int n = manifold.joint_count;
+  const Reals none = {};
+  Reals q[MAX_CHAIN], half[MAX_CHAIN], curvature[MAX_ROWS], motion = none, turn = none;
+  for (Int j = 0; j < n; j++) {
+    half[j] = none + half_widths[j];
+    motion += half[j] * manifold.lever_arms[j], turn += half[j] * manifold.is_revolute[j];
+  }
+  bound_curvature(manifold, half, curvature);
+  Errors errors;
+  for (Int first = 0; first < count; first += COUNT) {
+    for (Int j = 0; j < n; j++)
+      for (Int k = 0; k < COUNT; k++) q[j][k] = middles[(first + k < count ? first + k : first) * n + j];
+    errors.evaluate<true>(manifold, q);
+    Flags is_violated = none < none;
+    Int length = 0;
+    const auto check_length = [&](Reals largest_change) {
+      const Int first_row = length ? errors.end_rows[length - 1] : 0, end_row = errors.end_rows[length];
+      Reals square = none, change = none;
+      for (Int row = first_row; row < end_row; row++) square += errors.rows[row] * errors.rows[row];
+      for (Int j = 0; j < n; j++) {
+        Reals slope = none;
+        for (Int row = first_row; row < end_row; row++) slope += errors.rows[row] * errors.slopes[row][j];
+        change += absolute(slope) * half[j];
+      }
+      change = change * errors.ratios[length] / larger(square_root(square), none + 1e-12) + 0.5 * curvature[length];
+      change = errors.ratios[length] < NO_BOUND ? smaller(change, largest_change) : largest_change;
+      is_violated |= errors.lengths[length] - change > manifold.bounds[length] + 2 * ROUNDING;
+      length++;
+    };
+    for (Int k = 0; k < manifold.constraint_count; k++) {
+      const Constraint &c = manifold.constraints[k];
+      if (c.normal_count) check_length(motion);
+      if (c.is_turned || c.has_axis) check_length(turn * (c.is_turned ? 1.41421356237309515 : 1.0));
+    }
+    for (Int k = 0; k < COUNT && first + k < count; k++) is_excluded[first + k] = is_violated[k] != 0;
+  }
+}
+
+// Write the lengths (count, lengths) of the errors at q (count, n), the rows (count, rows), and their slopes (count, rows, n).
+static void evaluate_errors(const Manifold &manifold, const double *q, Int count, double *lengths, double *rows, double *slopes) {
+  constexpr Int COUNT = Lanes<double>::COUNT;
+  const Int n = manifold.joint_count;
+  Reals lanes[MAX_CHAIN];
+  Errors errors;
+  for (Int first = 0; first < count; first += COUNT) {
+    for (Int j = 0; j < n; j++)
+      for (Int k = 0; k < COUNT; k++) lanes[j][k] = q[(first + k < count ? first + k : first) * n + j];
+    errors.evaluate<true>(manifold, lanes);
+    for (Int k = 0; k < COUNT && first + k < count; k++) {
+      for (Int length = 0; length < manifold.length_count; length++) *lengths++ = errors.lengths[length][k];
+      for (Int row = 0; row < errors.row_count; row++) {
+        *rows++ = errors.rows[row][k];
+        for (Int j = 0; j < n; j++) *slopes++ = errors.slopes[row][j][k];
+      }
+    }
   }
 }
 

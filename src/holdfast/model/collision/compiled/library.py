@@ -21,6 +21,11 @@ _COMPILE_SECONDS = 0.3  # measured
 _CODE_LEVEL = 2  # of the code generator
 
 
+def list_fields(kind: Any, names: str) -> list[tuple[str, Any]]:
+    """Return fields of a structure that have the same type."""
+    return [(name, kind) for name in names.split()]
+
+
 class RouteSearchLibrary:
     """Functions of ``route_search.cpp``; each argument that is a pointer is an address."""
 
@@ -33,6 +38,8 @@ class RouteSearchLibrary:
         )
         self.check_spans = self._bind("check_spans", c_int64, c_void_p, c_void_p, c_int64, c_void_p, c_int64, c_void_p)
         self.prove_constraints = self._bind("prove_constraints", None, *(c_void_p,) * 4, c_int64, c_void_p)
+        self.exclude_boxes = self._bind("exclude_boxes", None, c_void_p, c_void_p, c_void_p, c_int64, c_void_p)
+        self.evaluate_errors = self._bind("evaluate_errors", None, c_void_p, c_void_p, c_int64, *(c_void_p,) * 3)
         self.extend_paths = self._bind("extend_paths", None, c_void_p, c_void_p, c_void_p)
         self.shorten = self._bind("shorten", c_int64, c_void_p, c_void_p, c_void_p, c_int64, c_uint64)
 

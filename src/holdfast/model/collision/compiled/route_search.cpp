@@ -661,7 +661,13 @@ void prove_constraints(const Manifold *manifold, const double *starts, const dou
   }
 }
 
-// Extend paths along the tool constraints; see constraint_manifold.hpp.
+// See the functions of these names in constraint_manifold.hpp.
+void exclude_boxes(const Manifold *manifold, const double *middles, const double *half_widths, Int count, char *is_excluded) {
+  exclude_boxes(*manifold, middles, half_widths, count, is_excluded);
+}
+void evaluate_errors(const Manifold *manifold, const double *q, Int count, double *lengths, double *rows, double *slopes) {
+  evaluate_errors(*manifold, q, count, lengths, rows, slopes);
+}
 void extend_paths(const Manifold *manifold, const Scene<double> *scene, const Extensions *extensions) {
   extend_paths(*manifold, scene, *extensions);
 }

@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 2d7bc0ff496fdcdbcc726f63178b0bce215330ac2224050d6b6a8df4a9c417bc, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 54f772872a8f962a7398e2bb4b20a7c020b31d0109dd403ea2bffc51627a0875, by tools/native.py. Do not edit.
 
 %struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
@@ -18,7 +18,7 @@
 %struct.Object.9 = type { [9 x double], [3 x double], [3 x double], double, double, double }
 %struct.Part.10 = type { [3 x double], [3 x double], double, double }
 %struct.Piece.11 = type { double, double }
-%struct.Errors = type { i64, [24 x <8 x double>], [24 x <8 x double>], [24 x [64 x <8 x double>]] }
+%struct.Errors = type { i64, [24 x i64], [24 x <8 x double>], [24 x <8 x double>], [24 x [64 x <8 x double>]], [24 x <8 x double>] }
 %struct.Constraint = type { i64, i64, i64, [9 x double], [3 x double], [9 x double], [3 x double], [3 x double], double }
 %struct.SpanPiece = type { i64, float, float }
 %struct.Contact = type { %struct.SpanPiece, i64, double }
@@ -3168,7 +3168,7 @@ define void @prove_constraints(ptr noundef %0, ptr nocapture noundef readonly %1
   %17 = load i64, ptr %9, align 8
   %18 = mul nsw i64 %17, %12
   %19 = getelementptr inbounds double, ptr %3, i64 %18
-  %20 = tail call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef %15, ptr noundef %16, ptr noundef %19)
+  %20 = tail call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef %15, ptr noundef %16, ptr noundef %19)
   %21 = zext i1 %20 to i8
   %22 = getelementptr inbounds i8, ptr %5, i64 %12
   store i8 %21, ptr %22, align 1
@@ -3177,7 +3177,7 @@ define void @prove_constraints(ptr noundef %0, ptr nocapture noundef readonly %1
   br i1 %24, label %10, label %11
 }
 
-define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3) unnamed_addr {
+define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3) unnamed_addr {
   %5 = alloca [64 x <8 x double>], align 64
   %6 = alloca [64 x <8 x double>], align 64
   %7 = alloca [24 x <8 x double>], align 64
@@ -3205,7 +3205,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %13, label %19, label %43
 
 19:
-  %20 = getelementptr inbounds i8, ptr %0, i64 96
+  %20 = getelementptr inbounds i8, ptr %0, i64 104
   %21 = load ptr, ptr %20, align 8
   br label %36
 
@@ -3318,9 +3318,9 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   store double 0.000000e+00, ptr %9, align 16
   %101 = getelementptr inbounds i8, ptr %9, i64 8
   store double 1.000000e+00, ptr %101, align 8
-  call void @llvm.lifetime.start.p0(i64 101440, ptr nonnull %10)
+  call void @llvm.lifetime.start.p0(i64 103168, ptr nonnull %10)
   %102 = getelementptr inbounds i8, ptr %0, i64 16
-  %103 = getelementptr inbounds i8, ptr %10, i64 64
+  %103 = getelementptr inbounds i8, ptr %10, i64 256
   %104 = getelementptr inbounds i8, ptr %0, i64 56
   br label %115
 
@@ -3370,7 +3370,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %138, label %119, label %122
 
 139:
-  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %10, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %6)
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
   %140 = load i64, ptr %102, align 8
   %141 = icmp sgt i64 %140, 0
   br i1 %141, label %160, label %157
@@ -3411,7 +3411,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %166, label %157, label %160
 
 167:
-  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %10, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %6)
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
   %168 = load i64, ptr %102, align 8
   %169 = icmp sgt i64 %168, 0
   br i1 %169, label %170, label %189
@@ -3532,13 +3532,610 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
 
 255:
   %256 = phi i1 [ false, %251 ], [ true, %252 ]
-  call void @llvm.lifetime.end.p0(i64 101440, ptr nonnull %10)
+  call void @llvm.lifetime.end.p0(i64 103168, ptr nonnull %10)
   call void @llvm.lifetime.end.p0(i64 65536, ptr nonnull %9)
   call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %8)
   call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %7)
   call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %6)
   call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %5)
   ret i1 %256
+}
+
+define void @exclude_boxes(ptr noundef %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, i64 noundef %3, ptr nocapture noundef writeonly %4) {
+  %6 = alloca [64 x <8 x double>], align 64
+  %7 = alloca [64 x <8 x double>], align 64
+  %8 = alloca [24 x <8 x double>], align 64
+  %9 = alloca %struct.Errors, align 64
+  %10 = load i64, ptr %0, align 8
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %6)
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %7)
+  call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %8)
+  %11 = icmp sgt i64 %10, 0
+  br i1 %11, label %12, label %41
+
+12:
+  %13 = getelementptr inbounds i8, ptr %0, i64 96
+  %14 = load ptr, ptr %13, align 8
+  %15 = getelementptr inbounds i8, ptr %0, i64 88
+  %16 = load ptr, ptr %15, align 8
+  br label %110
+
+17:
+  %18 = getelementptr inbounds i8, ptr %0, i64 104
+  %19 = load ptr, ptr %18, align 8
+  br label %34
+
+20:
+  %21 = phi <8 x double> [ %31, %20 ], [ zeroinitializer, %110 ]
+  %22 = phi i64 [ %32, %20 ], [ 0, %110 ]
+  %23 = getelementptr inbounds <8 x double>, ptr %7, i64 %22
+  %24 = load <8 x double>, ptr %23, align 64
+  %25 = tail call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %24)
+  %26 = getelementptr inbounds double, ptr %16, i64 %22
+  %27 = load double, ptr %26, align 8
+  %28 = insertelement <8 x double> poison, double %27, i64 0
+  %29 = shufflevector <8 x double> %28, <8 x double> poison, <8 x i32> zeroinitializer
+  %30 = fmul contract <8 x double> %25, %29
+  %31 = fadd contract <8 x double> %21, %30
+  %32 = add nuw nsw i64 %22, 1
+  %33 = icmp eq i64 %32, %10
+  br i1 %33, label %17, label %20
+
+34:
+  %35 = phi i64 [ 0, %17 ], [ %54, %53 ]
+  %36 = phi <8 x double> [ zeroinitializer, %17 ], [ %68, %53 ]
+  %37 = getelementptr inbounds <8 x double>, ptr %7, i64 %35
+  %38 = load <8 x double>, ptr %37, align 64
+  %39 = mul nuw nsw i64 %35, %10
+  %40 = getelementptr double, ptr %19, i64 %39
+  br label %56
+
+41:
+  %42 = phi <8 x double> [ zeroinitializer, %5 ], [ %31, %53 ]
+  %43 = phi <8 x double> [ zeroinitializer, %5 ], [ %131, %53 ]
+  %44 = phi <8 x double> [ zeroinitializer, %5 ], [ %125, %53 ]
+  %45 = phi <8 x double> [ zeroinitializer, %5 ], [ %68, %53 ]
+  %46 = getelementptr inbounds i8, ptr %0, i64 8
+  %47 = load i64, ptr %46, align 8
+  %48 = icmp sgt i64 %47, 0
+  br i1 %48, label %49, label %100
+
+49:
+  %50 = getelementptr inbounds i8, ptr %0, i64 40
+  %51 = load ptr, ptr %50, align 8
+  %52 = fmul contract <8 x double> %42, %42
+  br label %71
+
+53:
+  %54 = add nuw nsw i64 %35, 1
+  %55 = icmp eq i64 %54, %10
+  br i1 %55, label %41, label %34
+
+56:
+  %57 = phi i64 [ 0, %34 ], [ %69, %56 ]
+  %58 = phi <8 x double> [ %36, %34 ], [ %68, %56 ]
+  %59 = getelementptr inbounds <8 x double>, ptr %7, i64 %57
+  %60 = load <8 x double>, ptr %59, align 64
+  %61 = fmul contract <8 x double> %38, %60
+  %62 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %61)
+  %63 = getelementptr double, ptr %40, i64 %57
+  %64 = load double, ptr %63, align 8
+  %65 = insertelement <8 x double> poison, double %64, i64 0
+  %66 = shufflevector <8 x double> %65, <8 x double> poison, <8 x i32> zeroinitializer
+  %67 = fmul contract <8 x double> %62, %66
+  %68 = fadd contract <8 x double> %58, %67
+  %69 = add nuw nsw i64 %57, 1
+  %70 = icmp eq i64 %69, %10
+  br i1 %70, label %53, label %56
+
+71:
+  %72 = phi i64 [ 0, %49 ], [ %98, %96 ]
+  %73 = phi i64 [ 0, %49 ], [ %97, %96 ]
+  %74 = getelementptr inbounds %struct.Constraint, ptr %51, i64 %72
+  %75 = load i64, ptr %74, align 8
+  %76 = icmp eq i64 %75, 0
+  br i1 %76, label %80, label %77
+
+77:
+  %78 = add nsw i64 %73, 1
+  %79 = getelementptr inbounds <8 x double>, ptr %8, i64 %73
+  store <8 x double> %45, ptr %79, align 64
+  br label %80
+
+80:
+  %81 = phi i64 [ %78, %77 ], [ %73, %71 ]
+  %82 = getelementptr inbounds i8, ptr %74, i64 8
+  %83 = load i64, ptr %82, align 8
+  %84 = icmp eq i64 %83, 0
+  br i1 %84, label %85, label %89
+
+85:
+  %86 = getelementptr inbounds i8, ptr %74, i64 16
+  %87 = load i64, ptr %86, align 8
+  %88 = icmp eq i64 %87, 0
+  br i1 %88, label %96, label %89
+
+89:
+  %90 = phi double [ 1.000000e+00, %85 ], [ 0x3FF6A09E667F3BCD, %80 ]
+  %91 = insertelement <8 x double> poison, double %90, i64 0
+  %92 = shufflevector <8 x double> %91, <8 x double> poison, <8 x i32> zeroinitializer
+  %93 = fmul contract <8 x double> %52, %92
+  %94 = add nsw i64 %81, 1
+  %95 = getelementptr inbounds <8 x double>, ptr %8, i64 %81
+  store <8 x double> %93, ptr %95, align 64
+  br label %96
+
+96:
+  %97 = phi i64 [ %94, %89 ], [ %81, %85 ]
+  %98 = add nuw nsw i64 %72, 1
+  %99 = icmp eq i64 %98, %47
+  br i1 %99, label %100, label %71
+
+100:
+  call void @llvm.lifetime.start.p0(i64 103168, ptr nonnull %9)
+  %101 = icmp sgt i64 %3, 0
+  br i1 %101, label %102, label %350
+
+102:
+  %103 = getelementptr inbounds i8, ptr %0, i64 40
+  %104 = getelementptr inbounds i8, ptr %9, i64 8
+  %105 = getelementptr inbounds i8, ptr %9, i64 1792
+  %106 = getelementptr inbounds i8, ptr %9, i64 3328
+  %107 = getelementptr inbounds i8, ptr %9, i64 101632
+  %108 = getelementptr inbounds i8, ptr %9, i64 256
+  %109 = getelementptr inbounds i8, ptr %0, i64 56
+  br label %134
+
+110:
+  %111 = phi <8 x double> [ zeroinitializer, %12 ], [ %125, %110 ]
+  %112 = phi i64 [ 0, %12 ], [ %132, %110 ]
+  %113 = phi <8 x double> [ zeroinitializer, %12 ], [ %131, %110 ]
+  %114 = getelementptr inbounds double, ptr %2, i64 %112
+  %115 = load double, ptr %114, align 8
+  %116 = insertelement <8 x double> poison, double %115, i64 0
+  %117 = fadd contract <8 x double> %116, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %118 = shufflevector <8 x double> %117, <8 x double> poison, <8 x i32> zeroinitializer
+  %119 = getelementptr inbounds [64 x <8 x double>], ptr %7, i64 0, i64 %112
+  store <8 x double> %118, ptr %119, align 64
+  %120 = getelementptr inbounds double, ptr %14, i64 %112
+  %121 = load double, ptr %120, align 8
+  %122 = insertelement <8 x double> poison, double %121, i64 0
+  %123 = fmul contract <8 x double> %117, %122
+  %124 = shufflevector <8 x double> %123, <8 x double> poison, <8 x i32> zeroinitializer
+  %125 = fadd contract <8 x double> %111, %124
+  %126 = getelementptr inbounds double, ptr %16, i64 %112
+  %127 = load double, ptr %126, align 8
+  %128 = insertelement <8 x double> poison, double %127, i64 0
+  %129 = fmul contract <8 x double> %117, %128
+  %130 = shufflevector <8 x double> %129, <8 x double> poison, <8 x i32> zeroinitializer
+  %131 = fadd contract <8 x double> %113, %130
+  %132 = add nuw nsw i64 %112, 1
+  %133 = icmp eq i64 %132, %10
+  br i1 %133, label %20, label %110
+
+134:
+  %135 = phi i64 [ 0, %102 ], [ %341, %340 ]
+  br i1 %11, label %136, label %141
+
+136:
+  %137 = phi i64 [ %148, %147 ], [ 0, %134 ]
+  %138 = getelementptr double, ptr %1, i64 %137
+  %139 = getelementptr inbounds [64 x <8 x double>], ptr %6, i64 0, i64 %137
+  %140 = load <8 x double>, ptr %139, align 64
+  br label %150
+
+141:
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %9, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
+  %142 = load i64, ptr %46, align 8
+  %143 = icmp sgt i64 %142, 0
+  br i1 %143, label %144, label %162
+
+144:
+  %145 = load ptr, ptr %103, align 8
+  %146 = load ptr, ptr %109, align 8
+  br label %164
+
+147:
+  store <8 x double> %159, ptr %139, align 64
+  %148 = add nuw nsw i64 %137, 1
+  %149 = icmp eq i64 %148, %10
+  br i1 %149, label %141, label %136
+
+150:
+  %151 = phi i64 [ 0, %136 ], [ %160, %150 ]
+  %152 = phi <8 x double> [ %140, %136 ], [ %159, %150 ]
+  %153 = or disjoint i64 %151, %135
+  %154 = icmp slt i64 %153, %3
+  %155 = select i1 %154, i64 %153, i64 %135
+  %156 = mul nuw nsw i64 %155, %10
+  %157 = getelementptr double, ptr %138, i64 %156
+  %158 = load double, ptr %157, align 8
+  %159 = insertelement <8 x double> %152, double %158, i64 %151
+  %160 = add nuw nsw i64 %151, 1
+  %161 = icmp eq i64 %160, 8
+  br i1 %161, label %147, label %150
+
+162:
+  %163 = phi <8 x i64> [ zeroinitializer, %141 ], [ %333, %331 ]
+  br label %336
+
+164:
+  %165 = phi i64 [ 0, %144 ], [ %334, %331 ]
+  %166 = phi <8 x i64> [ zeroinitializer, %144 ], [ %333, %331 ]
+  %167 = phi i64 [ 0, %144 ], [ %332, %331 ]
+  %168 = getelementptr inbounds %struct.Constraint, ptr %145, i64 %165
+  %169 = load i64, ptr %168, align 8
+  %170 = icmp eq i64 %169, 0
+  br i1 %170, label %244, label %171
+
+171:
+  %172 = icmp eq i64 %167, 0
+  br i1 %172, label %177, label %173
+
+173:
+  %174 = add nsw i64 %167, -1
+  %175 = getelementptr inbounds [24 x i64], ptr %104, i64 0, i64 %174
+  %176 = load i64, ptr %175, align 8
+  br label %177
+
+177:
+  %178 = phi i64 [ %176, %173 ], [ 0, %171 ]
+  %179 = getelementptr inbounds [24 x i64], ptr %104, i64 0, i64 %167
+  %180 = load i64, ptr %179, align 8
+  %181 = icmp slt i64 %178, %180
+  br i1 %181, label %184, label %182
+
+182:
+  %183 = phi <8 x double> [ zeroinitializer, %177 ], [ %190, %184 ]
+  br i1 %11, label %193, label %216
+
+184:
+  %185 = phi i64 [ %191, %184 ], [ %178, %177 ]
+  %186 = phi <8 x double> [ %190, %184 ], [ zeroinitializer, %177 ]
+  %187 = getelementptr inbounds [24 x <8 x double>], ptr %105, i64 0, i64 %185
+  %188 = load <8 x double>, ptr %187, align 64
+  %189 = fmul contract <8 x double> %188, %188
+  %190 = fadd contract <8 x double> %186, %189
+  %191 = add nsw i64 %185, 1
+  %192 = icmp eq i64 %191, %180
+  br i1 %192, label %182, label %184
+
+193:
+  %194 = phi i64 [ %203, %196 ], [ 0, %182 ]
+  %195 = phi <8 x double> [ %202, %196 ], [ zeroinitializer, %182 ]
+  br i1 %181, label %205, label %196
+
+196:
+  %197 = phi <8 x double> [ zeroinitializer, %193 ], [ %213, %205 ]
+  %198 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %197)
+  %199 = getelementptr inbounds [64 x <8 x double>], ptr %7, i64 0, i64 %194
+  %200 = load <8 x double>, ptr %199, align 64
+  %201 = fmul contract <8 x double> %198, %200
+  %202 = fadd contract <8 x double> %195, %201
+  %203 = add nuw nsw i64 %194, 1
+  %204 = icmp eq i64 %203, %10
+  br i1 %204, label %216, label %193
+
+205:
+  %206 = phi i64 [ %214, %205 ], [ %178, %193 ]
+  %207 = phi <8 x double> [ %213, %205 ], [ zeroinitializer, %193 ]
+  %208 = getelementptr inbounds [24 x <8 x double>], ptr %105, i64 0, i64 %206
+  %209 = load <8 x double>, ptr %208, align 64
+  %210 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %106, i64 0, i64 %206, i64 %194
+  %211 = load <8 x double>, ptr %210, align 64
+  %212 = fmul contract <8 x double> %209, %211
+  %213 = fadd contract <8 x double> %207, %212
+  %214 = add nsw i64 %206, 1
+  %215 = icmp eq i64 %214, %180
+  br i1 %215, label %196, label %205
+
+216:
+  %217 = phi <8 x double> [ zeroinitializer, %182 ], [ %202, %196 ]
+  %218 = getelementptr inbounds [24 x <8 x double>], ptr %107, i64 0, i64 %167
+  %219 = load <8 x double>, ptr %218, align 64
+  %220 = fmul contract <8 x double> %217, %219
+  %221 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %183)
+  %222 = fcmp contract ogt <8 x double> %221, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %223 = select contract <8 x i1> %222, <8 x double> %221, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %224 = fdiv contract <8 x double> %220, %223
+  %225 = getelementptr inbounds [24 x <8 x double>], ptr %8, i64 0, i64 %167
+  %226 = load <8 x double>, ptr %225, align 64
+  %227 = fmul contract <8 x double> %226, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %228 = fadd contract <8 x double> %224, %227
+  %229 = fcmp contract olt <8 x double> %219, <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
+  %230 = fcmp contract olt <8 x double> %228, %44
+  %231 = select <8 x i1> %229, <8 x i1> %230, <8 x i1> zeroinitializer
+  %232 = select contract <8 x i1> %231, <8 x double> %228, <8 x double> %44
+  %233 = getelementptr inbounds [24 x <8 x double>], ptr %108, i64 0, i64 %167
+  %234 = load <8 x double>, ptr %233, align 64
+  %235 = fsub contract <8 x double> %234, %232
+  %236 = getelementptr inbounds double, ptr %146, i64 %167
+  %237 = load double, ptr %236, align 8
+  %238 = fadd contract double %237, 2.000000e-09
+  %239 = insertelement <8 x double> poison, double %238, i64 0
+  %240 = shufflevector <8 x double> %239, <8 x double> poison, <8 x i32> zeroinitializer
+  %241 = fcmp contract ogt <8 x double> %235, %240
+  %242 = select <8 x i1> %241, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %166
+  %243 = add nsw i64 %167, 1
+  br label %244
+
+244:
+  %245 = phi i64 [ %167, %164 ], [ %243, %216 ]
+  %246 = phi <8 x i64> [ %166, %164 ], [ %242, %216 ]
+  %247 = getelementptr inbounds i8, ptr %168, i64 8
+  %248 = load i64, ptr %247, align 8
+  %249 = icmp eq i64 %248, 0
+  br i1 %249, label %250, label %254
+
+250:
+  %251 = getelementptr inbounds i8, ptr %168, i64 16
+  %252 = load i64, ptr %251, align 8
+  %253 = icmp eq i64 %252, 0
+  br i1 %253, label %331, label %254
+
+254:
+  %255 = phi double [ 1.000000e+00, %250 ], [ 0x3FF6A09E667F3BCD, %244 ]
+  %256 = insertelement <8 x double> poison, double %255, i64 0
+  %257 = shufflevector <8 x double> %256, <8 x double> poison, <8 x i32> zeroinitializer
+  %258 = fmul contract <8 x double> %43, %257
+  %259 = icmp eq i64 %245, 0
+  br i1 %259, label %264, label %260
+
+260:
+  %261 = add nsw i64 %245, -1
+  %262 = getelementptr inbounds [24 x i64], ptr %104, i64 0, i64 %261
+  %263 = load i64, ptr %262, align 8
+  br label %264
+
+264:
+  %265 = phi i64 [ %263, %260 ], [ 0, %254 ]
+  %266 = getelementptr inbounds [24 x i64], ptr %104, i64 0, i64 %245
+  %267 = load i64, ptr %266, align 8
+  %268 = icmp slt i64 %265, %267
+  br i1 %268, label %271, label %269
+
+269:
+  %270 = phi <8 x double> [ zeroinitializer, %264 ], [ %277, %271 ]
+  br i1 %11, label %280, label %303
+
+271:
+  %272 = phi i64 [ %278, %271 ], [ %265, %264 ]
+  %273 = phi <8 x double> [ %277, %271 ], [ zeroinitializer, %264 ]
+  %274 = getelementptr inbounds [24 x <8 x double>], ptr %105, i64 0, i64 %272
+  %275 = load <8 x double>, ptr %274, align 64
+  %276 = fmul contract <8 x double> %275, %275
+  %277 = fadd contract <8 x double> %273, %276
+  %278 = add nsw i64 %272, 1
+  %279 = icmp eq i64 %278, %267
+  br i1 %279, label %269, label %271
+
+280:
+  %281 = phi i64 [ %290, %283 ], [ 0, %269 ]
+  %282 = phi <8 x double> [ %289, %283 ], [ zeroinitializer, %269 ]
+  br i1 %268, label %292, label %283
+
+283:
+  %284 = phi <8 x double> [ zeroinitializer, %280 ], [ %300, %292 ]
+  %285 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %284)
+  %286 = getelementptr inbounds [64 x <8 x double>], ptr %7, i64 0, i64 %281
+  %287 = load <8 x double>, ptr %286, align 64
+  %288 = fmul contract <8 x double> %285, %287
+  %289 = fadd contract <8 x double> %282, %288
+  %290 = add nuw nsw i64 %281, 1
+  %291 = icmp eq i64 %290, %10
+  br i1 %291, label %303, label %280
+
+292:
+  %293 = phi i64 [ %301, %292 ], [ %265, %280 ]
+  %294 = phi <8 x double> [ %300, %292 ], [ zeroinitializer, %280 ]
+  %295 = getelementptr inbounds [24 x <8 x double>], ptr %105, i64 0, i64 %293
+  %296 = load <8 x double>, ptr %295, align 64
+  %297 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %106, i64 0, i64 %293, i64 %281
+  %298 = load <8 x double>, ptr %297, align 64
+  %299 = fmul contract <8 x double> %296, %298
+  %300 = fadd contract <8 x double> %294, %299
+  %301 = add nsw i64 %293, 1
+  %302 = icmp eq i64 %301, %267
+  br i1 %302, label %283, label %292
+
+303:
+  %304 = phi <8 x double> [ zeroinitializer, %269 ], [ %289, %283 ]
+  %305 = getelementptr inbounds [24 x <8 x double>], ptr %107, i64 0, i64 %245
+  %306 = load <8 x double>, ptr %305, align 64
+  %307 = fmul contract <8 x double> %304, %306
+  %308 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %270)
+  %309 = fcmp contract ogt <8 x double> %308, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %310 = select contract <8 x i1> %309, <8 x double> %308, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %311 = fdiv contract <8 x double> %307, %310
+  %312 = getelementptr inbounds [24 x <8 x double>], ptr %8, i64 0, i64 %245
+  %313 = load <8 x double>, ptr %312, align 64
+  %314 = fmul contract <8 x double> %313, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %315 = fadd contract <8 x double> %311, %314
+  %316 = fcmp contract olt <8 x double> %306, <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
+  %317 = fcmp contract olt <8 x double> %315, %258
+  %318 = select <8 x i1> %316, <8 x i1> %317, <8 x i1> zeroinitializer
+  %319 = select contract <8 x i1> %318, <8 x double> %315, <8 x double> %258
+  %320 = getelementptr inbounds [24 x <8 x double>], ptr %108, i64 0, i64 %245
+  %321 = load <8 x double>, ptr %320, align 64
+  %322 = fsub contract <8 x double> %321, %319
+  %323 = getelementptr inbounds double, ptr %146, i64 %245
+  %324 = load double, ptr %323, align 8
+  %325 = fadd contract double %324, 2.000000e-09
+  %326 = insertelement <8 x double> poison, double %325, i64 0
+  %327 = shufflevector <8 x double> %326, <8 x double> poison, <8 x i32> zeroinitializer
+  %328 = fcmp contract ogt <8 x double> %322, %327
+  %329 = select <8 x i1> %328, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %246
+  %330 = add nsw i64 %245, 1
+  br label %331
+
+331:
+  %332 = phi i64 [ %245, %250 ], [ %330, %303 ]
+  %333 = phi <8 x i64> [ %246, %250 ], [ %329, %303 ]
+  %334 = add nuw nsw i64 %165, 1
+  %335 = icmp eq i64 %334, %142
+  br i1 %335, label %162, label %164
+
+336:
+  %337 = phi i64 [ 0, %162 ], [ %348, %343 ]
+  %338 = or disjoint i64 %337, %135
+  %339 = icmp slt i64 %338, %3
+  br i1 %339, label %343, label %340
+
+340:
+  %341 = add nuw nsw i64 %135, 8
+  %342 = icmp slt i64 %341, %3
+  br i1 %342, label %134, label %350
+
+343:
+  %344 = extractelement <8 x i64> %163, i64 %337
+  %345 = icmp ne i64 %344, 0
+  %346 = zext i1 %345 to i8
+  %347 = getelementptr inbounds i8, ptr %4, i64 %338
+  store i8 %346, ptr %347, align 1
+  %348 = add nuw nsw i64 %337, 1
+  %349 = icmp eq i64 %348, 8
+  br i1 %349, label %340, label %336
+
+350:
+  call void @llvm.lifetime.end.p0(i64 103168, ptr nonnull %9)
+  call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %8)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %7)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %6)
+  ret void
+}
+
+define void @evaluate_errors(ptr noundef %0, ptr nocapture noundef readonly %1, i64 noundef %2, ptr nocapture noundef writeonly %3, ptr nocapture noundef writeonly %4, ptr nocapture noundef writeonly %5) {
+  %7 = alloca [64 x <8 x double>], align 64
+  %8 = alloca %struct.Errors, align 64
+  %9 = load i64, ptr %0, align 8
+  call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %7)
+  call void @llvm.lifetime.start.p0(i64 103168, ptr nonnull %8)
+  %10 = icmp sgt i64 %2, 0
+  br i1 %10, label %11, label %97
+
+11:
+  %12 = icmp sgt i64 %9, 0
+  %13 = getelementptr inbounds i8, ptr %0, i64 16
+  %14 = getelementptr inbounds i8, ptr %8, i64 256
+  %15 = getelementptr inbounds i8, ptr %8, i64 1792
+  %16 = getelementptr inbounds i8, ptr %8, i64 3328
+  br label %17
+
+17:
+  %18 = phi i64 [ 0, %11 ], [ %51, %50 ]
+  %19 = phi ptr [ %3, %11 ], [ %54, %50 ]
+  %20 = phi ptr [ %4, %11 ], [ %69, %50 ]
+  %21 = phi ptr [ %5, %11 ], [ %68, %50 ]
+  br i1 %12, label %22, label %27
+
+22:
+  %23 = phi i64 [ %29, %28 ], [ 0, %17 ]
+  %24 = getelementptr double, ptr %1, i64 %23
+  %25 = getelementptr inbounds [64 x <8 x double>], ptr %7, i64 0, i64 %23
+  %26 = load <8 x double>, ptr %25, align 64
+  br label %31
+
+27:
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %8, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %7)
+  br label %43
+
+28:
+  store <8 x double> %40, ptr %25, align 64
+  %29 = add nuw nsw i64 %23, 1
+  %30 = icmp eq i64 %29, %9
+  br i1 %30, label %27, label %22
+
+31:
+  %32 = phi i64 [ 0, %22 ], [ %41, %31 ]
+  %33 = phi <8 x double> [ %26, %22 ], [ %40, %31 ]
+  %34 = or disjoint i64 %32, %18
+  %35 = icmp slt i64 %34, %2
+  %36 = select i1 %35, i64 %34, i64 %18
+  %37 = mul nuw nsw i64 %36, %9
+  %38 = getelementptr double, ptr %24, i64 %37
+  %39 = load double, ptr %38, align 8
+  %40 = insertelement <8 x double> %33, double %39, i64 %32
+  %41 = add nuw nsw i64 %32, 1
+  %42 = icmp eq i64 %41, 8
+  br i1 %42, label %28, label %31
+
+43:
+  %44 = phi i64 [ %70, %67 ], [ 0, %27 ]
+  %45 = phi ptr [ %54, %67 ], [ %19, %27 ]
+  %46 = phi ptr [ %69, %67 ], [ %20, %27 ]
+  %47 = phi ptr [ %68, %67 ], [ %21, %27 ]
+  %48 = load i64, ptr %13, align 8
+  %49 = icmp sgt i64 %48, 0
+  br i1 %49, label %57, label %53
+
+50:
+  %51 = add nuw nsw i64 %18, 8
+  %52 = icmp slt i64 %51, %2
+  br i1 %52, label %17, label %97
+
+53:
+  %54 = phi ptr [ %45, %43 ], [ %63, %57 ]
+  %55 = load i64, ptr %8, align 64
+  %56 = icmp sgt i64 %55, 0
+  br i1 %56, label %75, label %67
+
+57:
+  %58 = phi i64 [ %64, %57 ], [ 0, %43 ]
+  %59 = phi ptr [ %63, %57 ], [ %45, %43 ]
+  %60 = getelementptr inbounds [24 x <8 x double>], ptr %14, i64 0, i64 %58
+  %61 = load <8 x double>, ptr %60, align 64
+  %62 = extractelement <8 x double> %61, i64 %44
+  %63 = getelementptr inbounds i8, ptr %59, i64 8
+  store double %62, ptr %59, align 8
+  %64 = add nuw nsw i64 %58, 1
+  %65 = load i64, ptr %13, align 8
+  %66 = icmp slt i64 %64, %65
+  br i1 %66, label %57, label %53
+
+67:
+  %68 = phi ptr [ %47, %53 ], [ %84, %83 ]
+  %69 = phi ptr [ %46, %53 ], [ %82, %83 ]
+  %70 = add nuw nsw i64 %44, 1
+  %71 = icmp ult i64 %44, 7
+  %72 = or disjoint i64 %70, %18
+  %73 = icmp slt i64 %72, %2
+  %74 = select i1 %71, i1 %73, i1 false
+  br i1 %74, label %43, label %50
+
+75:
+  %76 = phi i64 [ %85, %83 ], [ 0, %53 ]
+  %77 = phi ptr [ %82, %83 ], [ %46, %53 ]
+  %78 = phi ptr [ %84, %83 ], [ %47, %53 ]
+  %79 = getelementptr inbounds [24 x <8 x double>], ptr %15, i64 0, i64 %76
+  %80 = load <8 x double>, ptr %79, align 64
+  %81 = extractelement <8 x double> %80, i64 %44
+  %82 = getelementptr inbounds i8, ptr %77, i64 8
+  store double %81, ptr %77, align 8
+  br i1 %12, label %88, label %83
+
+83:
+  %84 = phi ptr [ %78, %75 ], [ %94, %88 ]
+  %85 = add nuw nsw i64 %76, 1
+  %86 = load i64, ptr %8, align 64
+  %87 = icmp slt i64 %85, %86
+  br i1 %87, label %75, label %67
+
+88:
+  %89 = phi i64 [ %95, %88 ], [ 0, %75 ]
+  %90 = phi ptr [ %94, %88 ], [ %78, %75 ]
+  %91 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %16, i64 0, i64 %76, i64 %89
+  %92 = load <8 x double>, ptr %91, align 64
+  %93 = extractelement <8 x double> %92, i64 %44
+  %94 = getelementptr inbounds i8, ptr %90, i64 8
+  store double %93, ptr %90, align 8
+  %95 = add nuw nsw i64 %89, 1
+  %96 = icmp eq i64 %95, %9
+  br i1 %96, label %83, label %88
+
+97:
+  call void @llvm.lifetime.end.p0(i64 103168, ptr nonnull %8)
+  call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %7)
+  ret void
 }
 
 define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture noundef readonly %2) {
@@ -3564,7 +4161,7 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
   call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %12)
   call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %13)
   call void @llvm.lifetime.start.p0(i64 64, ptr nonnull %14)
-  call void @llvm.lifetime.start.p0(i64 101440, ptr nonnull %15)
+  call void @llvm.lifetime.start.p0(i64 103168, ptr nonnull %15)
   br label %21
 
 19:
@@ -3585,18 +4182,18 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
   %29 = getelementptr inbounds i8, ptr %2, i64 16
   %30 = getelementptr inbounds i8, ptr %2, i64 64
   %31 = getelementptr inbounds i8, ptr %2, i64 72
-  %32 = getelementptr inbounds i8, ptr %0, i64 104
+  %32 = getelementptr inbounds i8, ptr %0, i64 112
   %33 = getelementptr inbounds i8, ptr %0, i64 24
   %34 = getelementptr inbounds i8, ptr %0, i64 88
-  %35 = getelementptr inbounds i8, ptr %0, i64 96
+  %35 = getelementptr inbounds i8, ptr %0, i64 104
   %36 = getelementptr inbounds i8, ptr %0, i64 8
   %37 = getelementptr inbounds i8, ptr %0, i64 40
   %38 = getelementptr inbounds i8, ptr %0, i64 16
   %39 = getelementptr inbounds i8, ptr %0, i64 64
   %40 = getelementptr inbounds i8, ptr %0, i64 72
   %41 = getelementptr inbounds i8, ptr %0, i64 80
-  %42 = getelementptr inbounds i8, ptr %15, i64 1600
-  %43 = getelementptr inbounds i8, ptr %15, i64 3136
+  %42 = getelementptr inbounds i8, ptr %15, i64 1792
+  %43 = getelementptr inbounds i8, ptr %15, i64 3328
   %44 = getelementptr inbounds i8, ptr %2, i64 48
   %45 = icmp eq ptr %1, null
   %46 = getelementptr inbounds i8, ptr %2, i64 40
@@ -3929,7 +4526,7 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
 
 285:
   %286 = phi i64 [ 0, %282 ], [ %543, %542 ]
-  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %15, ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %12)
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %15, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %12)
   %287 = load i64, ptr %15, align 64
   %288 = icmp sgt i64 %287, 0
   br i1 %288, label %303, label %289
@@ -4437,7 +5034,7 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
 
 664:
   %665 = load ptr, ptr %44, align 8
-  %666 = call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(112) %0, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %665)
+  %666 = call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %665)
   br i1 %666, label %667, label %674
 
 667:
@@ -4526,7 +5123,7 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
   br i1 %724, label %55, label %637
 
 725:
-  call void @llvm.lifetime.end.p0(i64 101440, ptr nonnull %15)
+  call void @llvm.lifetime.end.p0(i64 103168, ptr nonnull %15)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %14)
   call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %13)
   call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %12)
@@ -7758,7 +8355,7 @@ declare <8 x double> @llvm.fabs.v8f64(<8 x double>)
 
 declare <8 x double> @llvm.sqrt.v8f64(<8 x double>)
 
-define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %0, ptr noundef nonnull align 8 dereferenceable(112) %1, ptr noundef %2) comdat align 2 {
+define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(120) %1, ptr noundef %2) comdat align 2 {
   %4 = alloca [9 x <8 x double>], align 64
   %5 = alloca [65 x %struct.Frame.3], align 64
   %6 = load i64, ptr %1, align 8
@@ -8092,241 +8689,268 @@ define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noun
   %289 = getelementptr inbounds i8, ptr %1, i64 8
   %290 = load i64, ptr %289, align 8
   %291 = icmp sgt i64 %290, 0
-  br i1 %291, label %292, label %295
+  br i1 %291, label %292, label %297
 
 292:
   %293 = getelementptr inbounds i8, ptr %1, i64 40
-  %294 = getelementptr inbounds i8, ptr %0, i64 64
-  br label %296
+  %294 = getelementptr inbounds i8, ptr %0, i64 101632
+  %295 = getelementptr inbounds i8, ptr %0, i64 8
+  %296 = getelementptr inbounds i8, ptr %0, i64 256
+  br label %298
 
-295:
+297:
   call void @llvm.lifetime.end.p0(i64 49920, ptr nonnull %5)
   ret void
 
-296:
-  %297 = phi i64 [ 0, %292 ], [ %486, %485 ]
-  %298 = phi i64 [ 0, %292 ], [ %487, %485 ]
-  %299 = load ptr, ptr %293, align 8
-  %300 = getelementptr inbounds %struct.Constraint, ptr %299, i64 %298
-  %301 = load i64, ptr %300, align 8
-  %302 = icmp eq i64 %301, 0
-  br i1 %302, label %352, label %303
-
-303:
-  %304 = icmp sgt i64 %301, 0
-  br i1 %304, label %305, label %322
+298:
+  %299 = phi i64 [ 0, %292 ], [ %507, %506 ]
+  %300 = phi i64 [ 0, %292 ], [ %508, %506 ]
+  %301 = load ptr, ptr %293, align 8
+  %302 = getelementptr inbounds %struct.Constraint, ptr %301, i64 %300
+  %303 = load i64, ptr %302, align 8
+  %304 = icmp eq i64 %303, 0
+  br i1 %304, label %357, label %305
 
 305:
-  %306 = getelementptr inbounds i8, ptr %300, i64 24
-  %307 = getelementptr inbounds i8, ptr %300, i64 96
-  %308 = load double, ptr %307, align 8
-  %309 = insertelement <8 x double> poison, double %308, i64 0
-  %310 = shufflevector <8 x double> %309, <8 x double> poison, <8 x i32> zeroinitializer
-  %311 = fsub contract <8 x double> %310, %260
-  %312 = getelementptr inbounds i8, ptr %300, i64 104
-  %313 = load double, ptr %312, align 8
-  %314 = insertelement <8 x double> poison, double %313, i64 0
-  %315 = shufflevector <8 x double> %314, <8 x double> poison, <8 x i32> zeroinitializer
-  %316 = fsub contract <8 x double> %315, %274
-  %317 = getelementptr inbounds i8, ptr %300, i64 112
-  %318 = load double, ptr %317, align 8
-  %319 = insertelement <8 x double> poison, double %318, i64 0
-  %320 = shufflevector <8 x double> %319, <8 x double> poison, <8 x i32> zeroinitializer
-  %321 = fsub contract <8 x double> %320, %288
-  br label %327
+  %306 = icmp sgt i64 %303, 0
+  br i1 %306, label %307, label %324
 
-322:
-  %323 = phi <8 x double> [ zeroinitializer, %303 ], [ %349, %327 ]
-  %324 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %323)
-  %325 = add nsw i64 %297, 1
-  %326 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %297
-  store <8 x double> %324, ptr %326, align 64
-  br label %352
+307:
+  %308 = getelementptr inbounds i8, ptr %302, i64 24
+  %309 = getelementptr inbounds i8, ptr %302, i64 96
+  %310 = load double, ptr %309, align 8
+  %311 = insertelement <8 x double> poison, double %310, i64 0
+  %312 = shufflevector <8 x double> %311, <8 x double> poison, <8 x i32> zeroinitializer
+  %313 = fsub contract <8 x double> %312, %260
+  %314 = getelementptr inbounds i8, ptr %302, i64 104
+  %315 = load double, ptr %314, align 8
+  %316 = insertelement <8 x double> poison, double %315, i64 0
+  %317 = shufflevector <8 x double> %316, <8 x double> poison, <8 x i32> zeroinitializer
+  %318 = fsub contract <8 x double> %317, %274
+  %319 = getelementptr inbounds i8, ptr %302, i64 112
+  %320 = load double, ptr %319, align 8
+  %321 = insertelement <8 x double> poison, double %320, i64 0
+  %322 = shufflevector <8 x double> %321, <8 x double> poison, <8 x i32> zeroinitializer
+  %323 = fsub contract <8 x double> %322, %288
+  br label %332
 
-327:
-  %328 = phi <8 x double> [ zeroinitializer, %305 ], [ %349, %327 ]
-  %329 = phi i64 [ 0, %305 ], [ %350, %327 ]
-  %330 = mul i64 %329, 24
-  %331 = getelementptr inbounds i8, ptr %306, i64 %330
-  %332 = load double, ptr %331, align 8
-  %333 = insertelement <8 x double> poison, double %332, i64 0
-  %334 = shufflevector <8 x double> %333, <8 x double> poison, <8 x i32> zeroinitializer
-  %335 = fmul contract <8 x double> %311, %334
-  %336 = getelementptr inbounds i8, ptr %331, i64 8
+324:
+  %325 = phi <8 x double> [ zeroinitializer, %305 ], [ %354, %332 ]
+  %326 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %299
+  store <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, ptr %326, align 64
+  %327 = load i64, ptr %0, align 64
+  %328 = getelementptr inbounds [24 x i64], ptr %295, i64 0, i64 %299
+  store i64 %327, ptr %328, align 8
+  %329 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %325)
+  %330 = add nsw i64 %299, 1
+  %331 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %299
+  store <8 x double> %329, ptr %331, align 64
+  br label %357
+
+332:
+  %333 = phi <8 x double> [ zeroinitializer, %307 ], [ %354, %332 ]
+  %334 = phi i64 [ 0, %307 ], [ %355, %332 ]
+  %335 = mul i64 %334, 24
+  %336 = getelementptr inbounds i8, ptr %308, i64 %335
   %337 = load double, ptr %336, align 8
   %338 = insertelement <8 x double> poison, double %337, i64 0
   %339 = shufflevector <8 x double> %338, <8 x double> poison, <8 x i32> zeroinitializer
-  %340 = fmul contract <8 x double> %316, %339
-  %341 = fadd contract <8 x double> %335, %340
-  %342 = getelementptr inbounds i8, ptr %331, i64 16
-  %343 = load double, ptr %342, align 8
-  %344 = insertelement <8 x double> poison, double %343, i64 0
-  %345 = shufflevector <8 x double> %344, <8 x double> poison, <8 x i32> zeroinitializer
-  %346 = fmul contract <8 x double> %321, %345
-  %347 = fadd contract <8 x double> %341, %346
-  %348 = fmul contract <8 x double> %347, %347
-  %349 = fadd contract <8 x double> %328, %348
-  %350 = add nuw nsw i64 %329, 1
-  %351 = icmp eq i64 %350, %301
-  br i1 %351, label %322, label %327
-
-352:
-  %353 = phi i64 [ %325, %322 ], [ %297, %296 ]
-  %354 = getelementptr inbounds i8, ptr %300, i64 8
-  %355 = load i64, ptr %354, align 8
-  %356 = icmp eq i64 %355, 0
-  br i1 %356, label %414, label %357
+  %340 = fmul contract <8 x double> %313, %339
+  %341 = getelementptr inbounds i8, ptr %336, i64 8
+  %342 = load double, ptr %341, align 8
+  %343 = insertelement <8 x double> poison, double %342, i64 0
+  %344 = shufflevector <8 x double> %343, <8 x double> poison, <8 x i32> zeroinitializer
+  %345 = fmul contract <8 x double> %318, %344
+  %346 = fadd contract <8 x double> %340, %345
+  %347 = getelementptr inbounds i8, ptr %336, i64 16
+  %348 = load double, ptr %347, align 8
+  %349 = insertelement <8 x double> poison, double %348, i64 0
+  %350 = shufflevector <8 x double> %349, <8 x double> poison, <8 x i32> zeroinitializer
+  %351 = fmul contract <8 x double> %323, %350
+  %352 = fadd contract <8 x double> %346, %351
+  %353 = fmul contract <8 x double> %352, %352
+  %354 = fadd contract <8 x double> %333, %353
+  %355 = add nuw nsw i64 %334, 1
+  %356 = icmp eq i64 %355, %303
+  br i1 %356, label %324, label %332
 
 357:
-  %358 = getelementptr inbounds i8, ptr %300, i64 120
-  br label %361
+  %358 = phi i64 [ %330, %324 ], [ %299, %298 ]
+  %359 = getelementptr inbounds i8, ptr %302, i64 8
+  %360 = load i64, ptr %359, align 8
+  %361 = icmp eq i64 %360, 0
+  br i1 %361, label %431, label %362
 
-359:
-  %360 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %411)
-  br label %481
+362:
+  %363 = getelementptr inbounds i8, ptr %302, i64 120
+  br label %378
 
-361:
-  %362 = phi i64 [ 0, %357 ], [ %412, %361 ]
-  %363 = phi <8 x double> [ zeroinitializer, %357 ], [ %411, %361 ]
-  %364 = getelementptr inbounds double, ptr %234, i64 %362
-  %365 = load double, ptr %364, align 8
-  %366 = getelementptr inbounds i8, ptr %364, i64 24
-  %367 = load double, ptr %366, align 8
-  %368 = getelementptr inbounds i8, ptr %364, i64 48
-  %369 = load double, ptr %368, align 8
-  %370 = insertelement <8 x double> poison, double %365, i64 0
-  %371 = shufflevector <8 x double> %370, <8 x double> poison, <8 x i32> zeroinitializer
-  %372 = fmul contract <8 x double> %244, %371
-  %373 = insertelement <8 x double> poison, double %367, i64 0
-  %374 = shufflevector <8 x double> %373, <8 x double> poison, <8 x i32> zeroinitializer
-  %375 = fmul contract <8 x double> %250, %374
-  %376 = fadd contract <8 x double> %372, %375
-  %377 = insertelement <8 x double> poison, double %369, i64 0
-  %378 = shufflevector <8 x double> %377, <8 x double> poison, <8 x i32> zeroinitializer
-  %379 = fmul contract <8 x double> %256, %378
-  %380 = fadd contract <8 x double> %376, %379
-  %381 = fmul contract <8 x double> %264, %371
-  %382 = fmul contract <8 x double> %268, %374
-  %383 = fadd contract <8 x double> %381, %382
-  %384 = fmul contract <8 x double> %272, %378
-  %385 = fadd contract <8 x double> %383, %384
-  %386 = fmul contract <8 x double> %278, %371
-  %387 = fmul contract <8 x double> %282, %374
-  %388 = fadd contract <8 x double> %386, %387
-  %389 = fmul contract <8 x double> %286, %378
-  %390 = fadd contract <8 x double> %388, %389
-  %391 = getelementptr inbounds double, ptr %358, i64 %362
-  %392 = load double, ptr %391, align 8
-  %393 = insertelement <8 x double> poison, double %392, i64 0
-  %394 = shufflevector <8 x double> %393, <8 x double> poison, <8 x i32> zeroinitializer
-  %395 = fsub contract <8 x double> %380, %394
-  %396 = getelementptr inbounds i8, ptr %391, i64 24
-  %397 = load double, ptr %396, align 8
-  %398 = insertelement <8 x double> poison, double %397, i64 0
-  %399 = shufflevector <8 x double> %398, <8 x double> poison, <8 x i32> zeroinitializer
-  %400 = fsub contract <8 x double> %385, %399
-  %401 = getelementptr inbounds i8, ptr %391, i64 48
-  %402 = load double, ptr %401, align 8
-  %403 = insertelement <8 x double> poison, double %402, i64 0
-  %404 = shufflevector <8 x double> %403, <8 x double> poison, <8 x i32> zeroinitializer
-  %405 = fsub contract <8 x double> %390, %404
-  %406 = fmul contract <8 x double> %395, %395
-  %407 = fmul contract <8 x double> %400, %400
-  %408 = fadd contract <8 x double> %406, %407
-  %409 = fmul contract <8 x double> %405, %405
-  %410 = fadd contract <8 x double> %408, %409
-  %411 = fadd contract <8 x double> %363, %410
-  %412 = add nuw nsw i64 %362, 1
-  %413 = icmp eq i64 %412, 3
-  br i1 %413, label %359, label %361
+364:
+  %365 = fmul contract <8 x double> %428, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %366 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %365)
+  %367 = fmul contract <8 x double> %366, <double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01>
+  %368 = fmul contract <8 x double> %366, %367
+  %369 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %368
+  %370 = fcmp contract ogt <8 x double> %369, zeroinitializer
+  %371 = select contract <8 x i1> %370, <8 x double> %369, <8 x double> zeroinitializer
+  %372 = fmul contract <8 x double> %371, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %373 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %372)
+  %374 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %358
+  store <8 x double> %373, ptr %374, align 64
+  %375 = load i64, ptr %0, align 64
+  %376 = getelementptr inbounds [24 x i64], ptr %295, i64 0, i64 %358
+  store i64 %375, ptr %376, align 8
+  %377 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %428)
+  br label %502
 
-414:
-  %415 = getelementptr inbounds i8, ptr %300, i64 16
-  %416 = load i64, ptr %415, align 8
-  %417 = icmp eq i64 %416, 0
-  br i1 %417, label %485, label %418
+378:
+  %379 = phi <8 x double> [ zeroinitializer, %362 ], [ %428, %378 ]
+  %380 = phi i64 [ 0, %362 ], [ %429, %378 ]
+  %381 = getelementptr inbounds double, ptr %234, i64 %380
+  %382 = load double, ptr %381, align 8
+  %383 = getelementptr inbounds i8, ptr %381, i64 24
+  %384 = load double, ptr %383, align 8
+  %385 = getelementptr inbounds i8, ptr %381, i64 48
+  %386 = load double, ptr %385, align 8
+  %387 = insertelement <8 x double> poison, double %382, i64 0
+  %388 = shufflevector <8 x double> %387, <8 x double> poison, <8 x i32> zeroinitializer
+  %389 = fmul contract <8 x double> %244, %388
+  %390 = insertelement <8 x double> poison, double %384, i64 0
+  %391 = shufflevector <8 x double> %390, <8 x double> poison, <8 x i32> zeroinitializer
+  %392 = fmul contract <8 x double> %250, %391
+  %393 = fadd contract <8 x double> %389, %392
+  %394 = insertelement <8 x double> poison, double %386, i64 0
+  %395 = shufflevector <8 x double> %394, <8 x double> poison, <8 x i32> zeroinitializer
+  %396 = fmul contract <8 x double> %256, %395
+  %397 = fadd contract <8 x double> %393, %396
+  %398 = fmul contract <8 x double> %264, %388
+  %399 = fmul contract <8 x double> %268, %391
+  %400 = fadd contract <8 x double> %398, %399
+  %401 = fmul contract <8 x double> %272, %395
+  %402 = fadd contract <8 x double> %400, %401
+  %403 = fmul contract <8 x double> %278, %388
+  %404 = fmul contract <8 x double> %282, %391
+  %405 = fadd contract <8 x double> %403, %404
+  %406 = fmul contract <8 x double> %286, %395
+  %407 = fadd contract <8 x double> %405, %406
+  %408 = getelementptr inbounds double, ptr %363, i64 %380
+  %409 = load double, ptr %408, align 8
+  %410 = insertelement <8 x double> poison, double %409, i64 0
+  %411 = shufflevector <8 x double> %410, <8 x double> poison, <8 x i32> zeroinitializer
+  %412 = fsub contract <8 x double> %397, %411
+  %413 = getelementptr inbounds i8, ptr %408, i64 24
+  %414 = load double, ptr %413, align 8
+  %415 = insertelement <8 x double> poison, double %414, i64 0
+  %416 = shufflevector <8 x double> %415, <8 x double> poison, <8 x i32> zeroinitializer
+  %417 = fsub contract <8 x double> %402, %416
+  %418 = getelementptr inbounds i8, ptr %408, i64 48
+  %419 = load double, ptr %418, align 8
+  %420 = insertelement <8 x double> poison, double %419, i64 0
+  %421 = shufflevector <8 x double> %420, <8 x double> poison, <8 x i32> zeroinitializer
+  %422 = fsub contract <8 x double> %407, %421
+  %423 = fmul contract <8 x double> %412, %412
+  %424 = fmul contract <8 x double> %417, %417
+  %425 = fadd contract <8 x double> %423, %424
+  %426 = fmul contract <8 x double> %422, %422
+  %427 = fadd contract <8 x double> %425, %426
+  %428 = fadd contract <8 x double> %379, %427
+  %429 = add nuw nsw i64 %380, 1
+  %430 = icmp eq i64 %429, 3
+  br i1 %430, label %364, label %378
 
-418:
-  %419 = getelementptr inbounds i8, ptr %300, i64 192
-  %420 = getelementptr inbounds i8, ptr %300, i64 216
-  %421 = load double, ptr %420, align 8
-  %422 = insertelement <8 x double> poison, double %421, i64 0
-  %423 = shufflevector <8 x double> %422, <8 x double> poison, <8 x i32> zeroinitializer
-  %424 = fmul contract <8 x double> %244, %423
-  %425 = getelementptr inbounds i8, ptr %300, i64 224
-  %426 = load double, ptr %425, align 8
-  %427 = insertelement <8 x double> poison, double %426, i64 0
-  %428 = shufflevector <8 x double> %427, <8 x double> poison, <8 x i32> zeroinitializer
-  %429 = fmul contract <8 x double> %250, %428
-  %430 = fadd contract <8 x double> %424, %429
-  %431 = getelementptr inbounds i8, ptr %300, i64 232
-  %432 = load double, ptr %431, align 8
-  %433 = insertelement <8 x double> poison, double %432, i64 0
-  %434 = shufflevector <8 x double> %433, <8 x double> poison, <8 x i32> zeroinitializer
-  %435 = fmul contract <8 x double> %256, %434
-  %436 = fadd contract <8 x double> %430, %435
-  %437 = fmul contract <8 x double> %264, %423
-  %438 = fmul contract <8 x double> %268, %428
-  %439 = fadd contract <8 x double> %437, %438
-  %440 = fmul contract <8 x double> %272, %434
-  %441 = fadd contract <8 x double> %439, %440
-  %442 = fmul contract <8 x double> %278, %423
-  %443 = fmul contract <8 x double> %282, %428
-  %444 = fadd contract <8 x double> %442, %443
-  %445 = fmul contract <8 x double> %286, %434
-  %446 = fadd contract <8 x double> %444, %445
-  %447 = getelementptr inbounds i8, ptr %300, i64 208
-  %448 = load double, ptr %447, align 8
-  %449 = insertelement <8 x double> poison, double %448, i64 0
-  %450 = shufflevector <8 x double> %449, <8 x double> poison, <8 x i32> zeroinitializer
-  %451 = fmul contract <8 x double> %450, %441
-  %452 = getelementptr inbounds i8, ptr %300, i64 200
-  %453 = load double, ptr %452, align 8
-  %454 = insertelement <8 x double> poison, double %453, i64 0
-  %455 = shufflevector <8 x double> %454, <8 x double> poison, <8 x i32> zeroinitializer
-  %456 = fmul contract <8 x double> %446, %455
-  %457 = fsub contract <8 x double> %451, %456
-  %458 = load double, ptr %419, align 8
-  %459 = insertelement <8 x double> poison, double %458, i64 0
-  %460 = shufflevector <8 x double> %459, <8 x double> poison, <8 x i32> zeroinitializer
-  %461 = fmul contract <8 x double> %446, %460
-  %462 = fmul contract <8 x double> %450, %436
-  %463 = fsub contract <8 x double> %461, %462
-  %464 = fmul contract <8 x double> %436, %455
-  %465 = fmul contract <8 x double> %441, %460
-  %466 = fsub contract <8 x double> %464, %465
-  %467 = fmul contract <8 x double> %457, %457
-  %468 = fmul contract <8 x double> %463, %463
-  %469 = fadd contract <8 x double> %467, %468
-  %470 = fmul contract <8 x double> %466, %466
-  %471 = fadd contract <8 x double> %470, %469
-  %472 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %471)
-  %473 = fmul contract <8 x double> %436, %460
-  %474 = fmul contract <8 x double> %441, %455
-  %475 = fadd contract <8 x double> %474, %473
-  %476 = fmul contract <8 x double> %450, %446
-  %477 = fadd contract <8 x double> %476, %475
-  %478 = fcmp contract ogt <8 x double> %477, zeroinitializer
-  %479 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %472
-  %480 = select contract <8 x i1> %478, <8 x double> %472, <8 x double> %479
-  br label %481
+431:
+  %432 = getelementptr inbounds i8, ptr %302, i64 16
+  %433 = load i64, ptr %432, align 8
+  %434 = icmp eq i64 %433, 0
+  br i1 %434, label %506, label %435
 
-481:
-  %482 = phi <8 x double> [ %360, %359 ], [ %480, %418 ]
-  %483 = add nsw i64 %353, 1
-  %484 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %353
-  store <8 x double> %482, ptr %484, align 64
-  br label %485
+435:
+  %436 = getelementptr inbounds i8, ptr %302, i64 192
+  %437 = getelementptr inbounds i8, ptr %302, i64 216
+  %438 = load double, ptr %437, align 8
+  %439 = insertelement <8 x double> poison, double %438, i64 0
+  %440 = shufflevector <8 x double> %439, <8 x double> poison, <8 x i32> zeroinitializer
+  %441 = fmul contract <8 x double> %244, %440
+  %442 = getelementptr inbounds i8, ptr %302, i64 224
+  %443 = load double, ptr %442, align 8
+  %444 = insertelement <8 x double> poison, double %443, i64 0
+  %445 = shufflevector <8 x double> %444, <8 x double> poison, <8 x i32> zeroinitializer
+  %446 = fmul contract <8 x double> %250, %445
+  %447 = fadd contract <8 x double> %441, %446
+  %448 = getelementptr inbounds i8, ptr %302, i64 232
+  %449 = load double, ptr %448, align 8
+  %450 = insertelement <8 x double> poison, double %449, i64 0
+  %451 = shufflevector <8 x double> %450, <8 x double> poison, <8 x i32> zeroinitializer
+  %452 = fmul contract <8 x double> %256, %451
+  %453 = fadd contract <8 x double> %447, %452
+  %454 = fmul contract <8 x double> %264, %440
+  %455 = fmul contract <8 x double> %268, %445
+  %456 = fadd contract <8 x double> %454, %455
+  %457 = fmul contract <8 x double> %272, %451
+  %458 = fadd contract <8 x double> %456, %457
+  %459 = fmul contract <8 x double> %278, %440
+  %460 = fmul contract <8 x double> %282, %445
+  %461 = fadd contract <8 x double> %459, %460
+  %462 = fmul contract <8 x double> %286, %451
+  %463 = fadd contract <8 x double> %461, %462
+  %464 = getelementptr inbounds i8, ptr %302, i64 208
+  %465 = load double, ptr %464, align 8
+  %466 = insertelement <8 x double> poison, double %465, i64 0
+  %467 = shufflevector <8 x double> %466, <8 x double> poison, <8 x i32> zeroinitializer
+  %468 = fmul contract <8 x double> %467, %458
+  %469 = getelementptr inbounds i8, ptr %302, i64 200
+  %470 = load double, ptr %469, align 8
+  %471 = insertelement <8 x double> poison, double %470, i64 0
+  %472 = shufflevector <8 x double> %471, <8 x double> poison, <8 x i32> zeroinitializer
+  %473 = fmul contract <8 x double> %463, %472
+  %474 = fsub contract <8 x double> %468, %473
+  %475 = load double, ptr %436, align 8
+  %476 = insertelement <8 x double> poison, double %475, i64 0
+  %477 = shufflevector <8 x double> %476, <8 x double> poison, <8 x i32> zeroinitializer
+  %478 = fmul contract <8 x double> %463, %477
+  %479 = fmul contract <8 x double> %467, %453
+  %480 = fsub contract <8 x double> %478, %479
+  %481 = fmul contract <8 x double> %453, %472
+  %482 = fmul contract <8 x double> %458, %477
+  %483 = fsub contract <8 x double> %481, %482
+  %484 = fmul contract <8 x double> %474, %474
+  %485 = fmul contract <8 x double> %480, %480
+  %486 = fadd contract <8 x double> %484, %485
+  %487 = fmul contract <8 x double> %483, %483
+  %488 = fadd contract <8 x double> %487, %486
+  %489 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %488)
+  %490 = fmul contract <8 x double> %453, %477
+  %491 = fmul contract <8 x double> %458, %472
+  %492 = fadd contract <8 x double> %491, %490
+  %493 = fmul contract <8 x double> %467, %463
+  %494 = fadd contract <8 x double> %493, %492
+  %495 = fcmp contract ogt <8 x double> %494, zeroinitializer
+  %496 = select contract <8 x i1> %495, <8 x double> %494, <8 x double> <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
+  %497 = getelementptr inbounds [24 x <8 x double>], ptr %294, i64 0, i64 %358
+  store <8 x double> %496, ptr %497, align 64
+  %498 = load i64, ptr %0, align 64
+  %499 = getelementptr inbounds [24 x i64], ptr %295, i64 0, i64 %358
+  store i64 %498, ptr %499, align 8
+  %500 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %489
+  %501 = select contract <8 x i1> %495, <8 x double> %489, <8 x double> %500
+  br label %502
 
-485:
-  %486 = phi i64 [ %353, %414 ], [ %483, %481 ]
-  %487 = add nuw nsw i64 %298, 1
-  %488 = load i64, ptr %289, align 8
-  %489 = icmp slt i64 %487, %488
-  br i1 %489, label %296, label %295
+502:
+  %503 = phi <8 x double> [ %501, %435 ], [ %377, %364 ]
+  %504 = add nsw i64 %358, 1
+  %505 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %358
+  store <8 x double> %503, ptr %505, align 64
+  br label %506
+
+506:
+  %507 = phi i64 [ %358, %431 ], [ %504, %502 ]
+  %508 = add nuw nsw i64 %300, 1
+  %509 = load i64, ptr %289, align 8
+  %510 = icmp slt i64 %508, %509
+  br i1 %510, label %298, label %297
 }
 
-define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(101440) %0, ptr noundef nonnull align 8 dereferenceable(112) %1, ptr noundef %2) comdat align 2 {
+define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(120) %1, ptr noundef %2) comdat align 2 {
   %4 = alloca [9 x <8 x double>], align 64
   %5 = alloca [65 x %struct.Frame.3], align 64
   %6 = alloca [3 x <8 x double>], align 64
@@ -8662,739 +9286,776 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   %291 = getelementptr inbounds i8, ptr %1, i64 8
   %292 = load i64, ptr %291, align 8
   %293 = icmp sgt i64 %292, 0
-  br i1 %293, label %294, label %304
+  br i1 %293, label %294, label %306
 
 294:
   %295 = getelementptr inbounds i8, ptr %1, i64 40
-  %296 = getelementptr inbounds i8, ptr %0, i64 1600
-  %297 = getelementptr inbounds i8, ptr %0, i64 3136
+  %296 = getelementptr inbounds i8, ptr %0, i64 1792
+  %297 = getelementptr inbounds i8, ptr %0, i64 3328
   %298 = getelementptr inbounds i8, ptr %1, i64 88
-  %299 = getelementptr inbounds i8, ptr %0, i64 64
-  %300 = getelementptr inbounds i8, ptr %6, i64 64
-  %301 = getelementptr inbounds i8, ptr %6, i64 128
-  %302 = getelementptr inbounds i8, ptr %7, i64 64
-  %303 = getelementptr inbounds i8, ptr %7, i64 128
-  br label %305
+  %299 = getelementptr inbounds i8, ptr %0, i64 101632
+  %300 = getelementptr inbounds i8, ptr %0, i64 8
+  %301 = getelementptr inbounds i8, ptr %0, i64 256
+  %302 = getelementptr inbounds i8, ptr %6, i64 64
+  %303 = getelementptr inbounds i8, ptr %6, i64 128
+  %304 = getelementptr inbounds i8, ptr %7, i64 64
+  %305 = getelementptr inbounds i8, ptr %7, i64 128
+  br label %307
 
-304:
+306:
   call void @llvm.lifetime.end.p0(i64 49920, ptr nonnull %5)
   ret void
 
-305:
-  %306 = phi i64 [ 0, %294 ], [ %898, %897 ]
-  %307 = phi i64 [ 0, %294 ], [ %899, %897 ]
-  %308 = load ptr, ptr %295, align 8
-  %309 = getelementptr inbounds %struct.Constraint, ptr %308, i64 %307
-  %310 = load i64, ptr %309, align 8
-  %311 = icmp eq i64 %310, 0
-  br i1 %311, label %422, label %312
-
-312:
-  %313 = icmp sgt i64 %310, 0
-  br i1 %313, label %314, label %320
+307:
+  %308 = phi i64 [ 0, %294 ], [ %926, %925 ]
+  %309 = phi i64 [ 0, %294 ], [ %927, %925 ]
+  %310 = load ptr, ptr %295, align 8
+  %311 = getelementptr inbounds %struct.Constraint, ptr %310, i64 %309
+  %312 = load i64, ptr %311, align 8
+  %313 = icmp eq i64 %312, 0
+  br i1 %313, label %427, label %314
 
 314:
-  %315 = getelementptr inbounds i8, ptr %309, i64 24
-  %316 = getelementptr inbounds i8, ptr %309, i64 96
-  %317 = getelementptr inbounds i8, ptr %309, i64 104
-  %318 = getelementptr inbounds i8, ptr %309, i64 112
-  %319 = load i64, ptr %0, align 64
-  br label %325
+  %315 = icmp sgt i64 %312, 0
+  br i1 %315, label %316, label %322
 
-320:
-  %321 = phi <8 x double> [ zeroinitializer, %312 ], [ %360, %416 ]
-  %322 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %321)
-  %323 = add nsw i64 %306, 1
-  %324 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %306
-  store <8 x double> %322, ptr %324, align 64
-  br label %422
+316:
+  %317 = getelementptr inbounds i8, ptr %311, i64 24
+  %318 = getelementptr inbounds i8, ptr %311, i64 96
+  %319 = getelementptr inbounds i8, ptr %311, i64 104
+  %320 = getelementptr inbounds i8, ptr %311, i64 112
+  %321 = load i64, ptr %0, align 64
+  br label %330
 
-325:
-  %326 = phi i64 [ %319, %314 ], [ %418, %416 ]
-  %327 = phi <8 x double> [ zeroinitializer, %314 ], [ %360, %416 ]
-  %328 = phi i64 [ 0, %314 ], [ %419, %416 ]
-  %329 = mul i64 %328, 24
-  %330 = getelementptr inbounds i8, ptr %315, i64 %329
-  %331 = load double, ptr %316, align 8
-  %332 = insertelement <8 x double> poison, double %331, i64 0
-  %333 = shufflevector <8 x double> %332, <8 x double> poison, <8 x i32> zeroinitializer
-  %334 = fsub contract <8 x double> %333, %262
-  %335 = load double, ptr %330, align 8
-  %336 = insertelement <8 x double> poison, double %335, i64 0
-  %337 = shufflevector <8 x double> %336, <8 x double> poison, <8 x i32> zeroinitializer
-  %338 = fmul contract <8 x double> %334, %337
-  %339 = load double, ptr %317, align 8
-  %340 = insertelement <8 x double> poison, double %339, i64 0
-  %341 = shufflevector <8 x double> %340, <8 x double> poison, <8 x i32> zeroinitializer
-  %342 = fsub contract <8 x double> %341, %276
-  %343 = getelementptr inbounds i8, ptr %330, i64 8
-  %344 = load double, ptr %343, align 8
+322:
+  %323 = phi <8 x double> [ zeroinitializer, %314 ], [ %365, %421 ]
+  %324 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %308
+  store <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, ptr %324, align 64
+  %325 = load i64, ptr %0, align 64
+  %326 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %308
+  store i64 %325, ptr %326, align 8
+  %327 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %323)
+  %328 = add nsw i64 %308, 1
+  %329 = getelementptr inbounds [24 x <8 x double>], ptr %301, i64 0, i64 %308
+  store <8 x double> %327, ptr %329, align 64
+  br label %427
+
+330:
+  %331 = phi i64 [ %321, %316 ], [ %423, %421 ]
+  %332 = phi <8 x double> [ zeroinitializer, %316 ], [ %365, %421 ]
+  %333 = phi i64 [ 0, %316 ], [ %424, %421 ]
+  %334 = mul i64 %333, 24
+  %335 = getelementptr inbounds i8, ptr %317, i64 %334
+  %336 = load double, ptr %318, align 8
+  %337 = insertelement <8 x double> poison, double %336, i64 0
+  %338 = shufflevector <8 x double> %337, <8 x double> poison, <8 x i32> zeroinitializer
+  %339 = fsub contract <8 x double> %338, %262
+  %340 = load double, ptr %335, align 8
+  %341 = insertelement <8 x double> poison, double %340, i64 0
+  %342 = shufflevector <8 x double> %341, <8 x double> poison, <8 x i32> zeroinitializer
+  %343 = fmul contract <8 x double> %339, %342
+  %344 = load double, ptr %319, align 8
   %345 = insertelement <8 x double> poison, double %344, i64 0
   %346 = shufflevector <8 x double> %345, <8 x double> poison, <8 x i32> zeroinitializer
-  %347 = fmul contract <8 x double> %342, %346
-  %348 = fadd contract <8 x double> %338, %347
-  %349 = load double, ptr %318, align 8
+  %347 = fsub contract <8 x double> %346, %276
+  %348 = getelementptr inbounds i8, ptr %335, i64 8
+  %349 = load double, ptr %348, align 8
   %350 = insertelement <8 x double> poison, double %349, i64 0
   %351 = shufflevector <8 x double> %350, <8 x double> poison, <8 x i32> zeroinitializer
-  %352 = fsub contract <8 x double> %351, %290
-  %353 = getelementptr inbounds i8, ptr %330, i64 16
-  %354 = load double, ptr %353, align 8
+  %352 = fmul contract <8 x double> %347, %351
+  %353 = fadd contract <8 x double> %343, %352
+  %354 = load double, ptr %320, align 8
   %355 = insertelement <8 x double> poison, double %354, i64 0
   %356 = shufflevector <8 x double> %355, <8 x double> poison, <8 x i32> zeroinitializer
-  %357 = fmul contract <8 x double> %352, %356
-  %358 = fadd contract <8 x double> %348, %357
-  %359 = fmul contract <8 x double> %358, %358
-  %360 = fadd contract <8 x double> %327, %359
-  %361 = fadd contract <8 x double> %337, zeroinitializer
-  %362 = fadd contract <8 x double> %345, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %363 = shufflevector <8 x double> %362, <8 x double> poison, <8 x i32> zeroinitializer
-  %364 = fadd contract <8 x double> %355, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %365 = shufflevector <8 x double> %364, <8 x double> poison, <8 x i32> zeroinitializer
-  %366 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %326
-  store <8 x double> %358, ptr %366, align 64
-  br i1 %24, label %367, label %416
+  %357 = fsub contract <8 x double> %356, %290
+  %358 = getelementptr inbounds i8, ptr %335, i64 16
+  %359 = load double, ptr %358, align 8
+  %360 = insertelement <8 x double> poison, double %359, i64 0
+  %361 = shufflevector <8 x double> %360, <8 x double> poison, <8 x i32> zeroinitializer
+  %362 = fmul contract <8 x double> %357, %361
+  %363 = fadd contract <8 x double> %353, %362
+  %364 = fmul contract <8 x double> %363, %363
+  %365 = fadd contract <8 x double> %332, %364
+  %366 = fadd contract <8 x double> %342, zeroinitializer
+  %367 = fadd contract <8 x double> %350, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %368 = shufflevector <8 x double> %367, <8 x double> poison, <8 x i32> zeroinitializer
+  %369 = fadd contract <8 x double> %360, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %370 = shufflevector <8 x double> %369, <8 x double> poison, <8 x i32> zeroinitializer
+  %371 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %331
+  store <8 x double> %363, ptr %371, align 64
+  br i1 %24, label %372, label %421
 
-367:
-  %368 = phi i64 [ %369, %411 ], [ 0, %325 ]
-  %369 = add nuw nsw i64 %368, 1
-  %370 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %369
-  %371 = getelementptr inbounds i8, ptr %370, i64 128
-  %372 = load <8 x double>, ptr %371, align 64
-  %373 = getelementptr inbounds i8, ptr %370, i64 320
-  %374 = load <8 x double>, ptr %373, align 64
-  %375 = getelementptr inbounds i8, ptr %370, i64 512
-  %376 = load <8 x double>, ptr %375, align 64
-  %377 = load ptr, ptr %298, align 8
-  %378 = getelementptr inbounds double, ptr %377, i64 %368
-  %379 = load double, ptr %378, align 8
-  %380 = fcmp contract une double %379, 0.000000e+00
-  br i1 %380, label %387, label %381
+372:
+  %373 = phi i64 [ %374, %416 ], [ 0, %330 ]
+  %374 = add nuw nsw i64 %373, 1
+  %375 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %374
+  %376 = getelementptr inbounds i8, ptr %375, i64 128
+  %377 = load <8 x double>, ptr %376, align 64
+  %378 = getelementptr inbounds i8, ptr %375, i64 320
+  %379 = load <8 x double>, ptr %378, align 64
+  %380 = getelementptr inbounds i8, ptr %375, i64 512
+  %381 = load <8 x double>, ptr %380, align 64
+  %382 = load ptr, ptr %298, align 8
+  %383 = getelementptr inbounds double, ptr %382, i64 %373
+  %384 = load double, ptr %383, align 8
+  %385 = fcmp contract une double %384, 0.000000e+00
+  br i1 %385, label %392, label %386
 
-381:
-  %382 = fmul contract <8 x double> %361, %372
-  %383 = fmul contract <8 x double> %363, %374
-  %384 = fadd contract <8 x double> %382, %383
-  %385 = fmul contract <8 x double> %365, %376
-  %386 = fadd contract <8 x double> %384, %385
-  br label %411
+386:
+  %387 = fmul contract <8 x double> %366, %377
+  %388 = fmul contract <8 x double> %368, %379
+  %389 = fadd contract <8 x double> %387, %388
+  %390 = fmul contract <8 x double> %370, %381
+  %391 = fadd contract <8 x double> %389, %390
+  br label %416
 
-387:
-  %388 = getelementptr inbounds i8, ptr %370, i64 704
-  %389 = load <8 x double>, ptr %388, align 64
-  %390 = fsub contract <8 x double> %290, %389
-  %391 = getelementptr inbounds i8, ptr %370, i64 640
-  %392 = load <8 x double>, ptr %391, align 64
-  %393 = fsub contract <8 x double> %276, %392
-  %394 = getelementptr inbounds i8, ptr %370, i64 576
-  %395 = load <8 x double>, ptr %394, align 64
-  %396 = fsub contract <8 x double> %262, %395
-  %397 = fmul contract <8 x double> %374, %390
-  %398 = fmul contract <8 x double> %376, %393
-  %399 = fsub contract <8 x double> %397, %398
-  %400 = fmul contract <8 x double> %361, %399
-  %401 = fmul contract <8 x double> %376, %396
-  %402 = fmul contract <8 x double> %372, %390
-  %403 = fsub contract <8 x double> %401, %402
-  %404 = fmul contract <8 x double> %363, %403
-  %405 = fadd contract <8 x double> %400, %404
-  %406 = fmul contract <8 x double> %372, %393
-  %407 = fmul contract <8 x double> %374, %396
+392:
+  %393 = getelementptr inbounds i8, ptr %375, i64 704
+  %394 = load <8 x double>, ptr %393, align 64
+  %395 = fsub contract <8 x double> %290, %394
+  %396 = getelementptr inbounds i8, ptr %375, i64 640
+  %397 = load <8 x double>, ptr %396, align 64
+  %398 = fsub contract <8 x double> %276, %397
+  %399 = getelementptr inbounds i8, ptr %375, i64 576
+  %400 = load <8 x double>, ptr %399, align 64
+  %401 = fsub contract <8 x double> %262, %400
+  %402 = fmul contract <8 x double> %379, %395
+  %403 = fmul contract <8 x double> %381, %398
+  %404 = fsub contract <8 x double> %402, %403
+  %405 = fmul contract <8 x double> %366, %404
+  %406 = fmul contract <8 x double> %381, %401
+  %407 = fmul contract <8 x double> %377, %395
   %408 = fsub contract <8 x double> %406, %407
-  %409 = fmul contract <8 x double> %365, %408
-  %410 = fadd contract <8 x double> %409, %405
-  br label %411
-
-411:
-  %412 = phi <8 x double> [ %410, %387 ], [ %386, %381 ]
-  %413 = load i64, ptr %0, align 64
-  %414 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %413, i64 %368
-  store <8 x double> %412, ptr %414, align 64
-  %415 = icmp eq i64 %369, %8
-  br i1 %415, label %416, label %367
+  %409 = fmul contract <8 x double> %368, %408
+  %410 = fadd contract <8 x double> %405, %409
+  %411 = fmul contract <8 x double> %377, %398
+  %412 = fmul contract <8 x double> %379, %401
+  %413 = fsub contract <8 x double> %411, %412
+  %414 = fmul contract <8 x double> %370, %413
+  %415 = fadd contract <8 x double> %414, %410
+  br label %416
 
 416:
-  %417 = load i64, ptr %0, align 64
-  %418 = add nsw i64 %417, 1
-  store i64 %418, ptr %0, align 64
-  %419 = add nuw nsw i64 %328, 1
-  %420 = load i64, ptr %309, align 8
-  %421 = icmp slt i64 %419, %420
-  br i1 %421, label %325, label %320
+  %417 = phi <8 x double> [ %415, %392 ], [ %391, %386 ]
+  %418 = load i64, ptr %0, align 64
+  %419 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %418, i64 %373
+  store <8 x double> %417, ptr %419, align 64
+  %420 = icmp eq i64 %374, %8
+  br i1 %420, label %421, label %372
 
-422:
-  %423 = phi i64 [ %323, %320 ], [ %306, %305 ]
-  %424 = getelementptr inbounds i8, ptr %309, i64 8
-  %425 = load i64, ptr %424, align 8
-  %426 = icmp eq i64 %425, 0
-  br i1 %426, label %596, label %427
+421:
+  %422 = load i64, ptr %0, align 64
+  %423 = add nsw i64 %422, 1
+  store i64 %423, ptr %0, align 64
+  %424 = add nuw nsw i64 %333, 1
+  %425 = load i64, ptr %311, align 8
+  %426 = icmp slt i64 %424, %425
+  br i1 %426, label %330, label %322
 
 427:
-  %428 = getelementptr inbounds i8, ptr %309, i64 120
-  br label %525
+  %428 = phi i64 [ %328, %322 ], [ %308, %307 ]
+  %429 = getelementptr inbounds i8, ptr %311, i64 8
+  %430 = load i64, ptr %429, align 8
+  %431 = icmp eq i64 %430, 0
+  br i1 %431, label %625, label %432
 
-429:
-  %430 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %578)
-  %431 = add nsw i64 %423, 1
-  %432 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %423
-  store <8 x double> %430, ptr %432, align 64
-  %433 = load i64, ptr %0, align 64
-  %434 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %433
-  store <8 x double> %583, ptr %434, align 64
-  br i1 %24, label %442, label %435
+432:
+  %433 = getelementptr inbounds i8, ptr %311, i64 120
+  br label %554
 
-435:
-  %436 = load i64, ptr %0, align 64
-  %437 = add nsw i64 %436, 1
-  store i64 %437, ptr %0, align 64
-  %438 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %437
-  store <8 x double> %588, ptr %438, align 64
-  %439 = load i64, ptr %0, align 64
-  %440 = add nsw i64 %439, 1
-  store i64 %440, ptr %0, align 64
-  %441 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %440
-  store <8 x double> %593, ptr %441, align 64
-  br label %522
-
-442:
-  %443 = phi i64 [ %444, %461 ], [ 0, %429 ]
-  %444 = add nuw nsw i64 %443, 1
-  %445 = load ptr, ptr %298, align 8
-  %446 = getelementptr inbounds double, ptr %445, i64 %443
-  %447 = load double, ptr %446, align 8
-  %448 = fcmp contract oeq double %447, 0.000000e+00
-  br i1 %448, label %461, label %449
+434:
+  %435 = fmul contract <8 x double> %607, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %436 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %435)
+  %437 = fmul contract <8 x double> %612, %612
+  %438 = fmul contract <8 x double> %617, %617
+  %439 = fadd contract <8 x double> %437, %438
+  %440 = fmul contract <8 x double> %622, %622
+  %441 = fadd contract <8 x double> %439, %440
+  %442 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %441)
+  %443 = fcmp contract ogt <8 x double> %442, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %444 = select contract <8 x i1> %443, <8 x double> %442, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %445 = fdiv contract <8 x double> %436, %444
+  %446 = fmul contract <8 x double> %612, %445
+  %447 = load i64, ptr %0, align 64
+  %448 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %447
+  store <8 x double> %446, ptr %448, align 64
+  br i1 %24, label %458, label %449
 
 449:
-  %450 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %444
-  %451 = getelementptr inbounds i8, ptr %450, i64 512
-  %452 = load <8 x double>, ptr %451, align 64
-  %453 = getelementptr inbounds i8, ptr %450, i64 320
-  %454 = load <8 x double>, ptr %453, align 64
-  %455 = getelementptr inbounds i8, ptr %450, i64 128
-  %456 = load <8 x double>, ptr %455, align 64
-  %457 = fmul contract <8 x double> %454, zeroinitializer
-  %458 = fadd contract <8 x double> %456, %457
-  %459 = fmul contract <8 x double> %452, zeroinitializer
-  %460 = fadd contract <8 x double> %459, %458
-  br label %461
+  %450 = load i64, ptr %0, align 64
+  %451 = add nsw i64 %450, 1
+  store i64 %451, ptr %0, align 64
+  %452 = fmul contract <8 x double> %617, %445
+  %453 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %451
+  store <8 x double> %452, ptr %453, align 64
+  %454 = load i64, ptr %0, align 64
+  %455 = add nsw i64 %454, 1
+  store i64 %455, ptr %0, align 64
+  %456 = fmul contract <8 x double> %622, %445
+  %457 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %455
+  store <8 x double> %456, ptr %457, align 64
+  br label %540
 
-461:
-  %462 = phi contract <8 x double> [ %460, %449 ], [ zeroinitializer, %442 ]
-  %463 = load i64, ptr %0, align 64
-  %464 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %463, i64 %443
-  store <8 x double> %462, ptr %464, align 64
-  %465 = icmp eq i64 %444, %8
-  br i1 %465, label %466, label %442
+458:
+  %459 = phi i64 [ %460, %477 ], [ 0, %434 ]
+  %460 = add nuw nsw i64 %459, 1
+  %461 = load ptr, ptr %298, align 8
+  %462 = getelementptr inbounds double, ptr %461, i64 %459
+  %463 = load double, ptr %462, align 8
+  %464 = fcmp contract oeq double %463, 0.000000e+00
+  br i1 %464, label %477, label %465
 
-466:
-  %467 = load i64, ptr %0, align 64
-  %468 = add nsw i64 %467, 1
-  store i64 %468, ptr %0, align 64
-  %469 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %468
-  store <8 x double> %588, ptr %469, align 64
-  br label %470
-
-470:
-  %471 = phi i64 [ 0, %466 ], [ %472, %489 ]
-  %472 = add nuw nsw i64 %471, 1
-  %473 = load ptr, ptr %298, align 8
-  %474 = getelementptr inbounds double, ptr %473, i64 %471
-  %475 = load double, ptr %474, align 8
-  %476 = fcmp contract oeq double %475, 0.000000e+00
-  br i1 %476, label %489, label %477
+465:
+  %466 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %460
+  %467 = getelementptr inbounds i8, ptr %466, i64 512
+  %468 = load <8 x double>, ptr %467, align 64
+  %469 = getelementptr inbounds i8, ptr %466, i64 320
+  %470 = load <8 x double>, ptr %469, align 64
+  %471 = getelementptr inbounds i8, ptr %466, i64 128
+  %472 = load <8 x double>, ptr %471, align 64
+  %473 = fmul contract <8 x double> %470, zeroinitializer
+  %474 = fadd contract <8 x double> %472, %473
+  %475 = fmul contract <8 x double> %468, zeroinitializer
+  %476 = fadd contract <8 x double> %475, %474
+  br label %477
 
 477:
-  %478 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %472
-  %479 = getelementptr inbounds i8, ptr %478, i64 512
-  %480 = load <8 x double>, ptr %479, align 64
-  %481 = getelementptr inbounds i8, ptr %478, i64 320
-  %482 = load <8 x double>, ptr %481, align 64
-  %483 = getelementptr inbounds i8, ptr %478, i64 128
-  %484 = load <8 x double>, ptr %483, align 64
-  %485 = fmul contract <8 x double> %484, zeroinitializer
-  %486 = fadd contract <8 x double> %482, %485
-  %487 = fmul contract <8 x double> %480, zeroinitializer
-  %488 = fadd contract <8 x double> %487, %486
-  br label %489
+  %478 = phi contract <8 x double> [ %476, %465 ], [ zeroinitializer, %458 ]
+  %479 = load i64, ptr %0, align 64
+  %480 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %479, i64 %459
+  store <8 x double> %478, ptr %480, align 64
+  %481 = icmp eq i64 %460, %8
+  br i1 %481, label %482, label %458
 
-489:
-  %490 = phi contract <8 x double> [ %488, %477 ], [ zeroinitializer, %470 ]
-  %491 = load i64, ptr %0, align 64
-  %492 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %491, i64 %471
-  store <8 x double> %490, ptr %492, align 64
-  %493 = icmp eq i64 %472, %8
-  br i1 %493, label %494, label %470
+482:
+  %483 = load i64, ptr %0, align 64
+  %484 = add nsw i64 %483, 1
+  store i64 %484, ptr %0, align 64
+  %485 = fmul contract <8 x double> %617, %445
+  %486 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %484
+  store <8 x double> %485, ptr %486, align 64
+  br label %487
+
+487:
+  %488 = phi i64 [ 0, %482 ], [ %489, %506 ]
+  %489 = add nuw nsw i64 %488, 1
+  %490 = load ptr, ptr %298, align 8
+  %491 = getelementptr inbounds double, ptr %490, i64 %488
+  %492 = load double, ptr %491, align 8
+  %493 = fcmp contract oeq double %492, 0.000000e+00
+  br i1 %493, label %506, label %494
 
 494:
-  %495 = load i64, ptr %0, align 64
-  %496 = add nsw i64 %495, 1
-  store i64 %496, ptr %0, align 64
-  %497 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %496
-  store <8 x double> %593, ptr %497, align 64
-  br label %498
+  %495 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %489
+  %496 = getelementptr inbounds i8, ptr %495, i64 512
+  %497 = load <8 x double>, ptr %496, align 64
+  %498 = getelementptr inbounds i8, ptr %495, i64 320
+  %499 = load <8 x double>, ptr %498, align 64
+  %500 = getelementptr inbounds i8, ptr %495, i64 128
+  %501 = load <8 x double>, ptr %500, align 64
+  %502 = fmul contract <8 x double> %501, zeroinitializer
+  %503 = fadd contract <8 x double> %499, %502
+  %504 = fmul contract <8 x double> %497, zeroinitializer
+  %505 = fadd contract <8 x double> %504, %503
+  br label %506
 
-498:
-  %499 = phi i64 [ 0, %494 ], [ %500, %517 ]
-  %500 = add nuw nsw i64 %499, 1
-  %501 = load ptr, ptr %298, align 8
-  %502 = getelementptr inbounds double, ptr %501, i64 %499
-  %503 = load double, ptr %502, align 8
-  %504 = fcmp contract oeq double %503, 0.000000e+00
-  br i1 %504, label %517, label %505
+506:
+  %507 = phi contract <8 x double> [ %505, %494 ], [ zeroinitializer, %487 ]
+  %508 = load i64, ptr %0, align 64
+  %509 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %508, i64 %488
+  store <8 x double> %507, ptr %509, align 64
+  %510 = icmp eq i64 %489, %8
+  br i1 %510, label %511, label %487
 
-505:
-  %506 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %500
-  %507 = getelementptr inbounds i8, ptr %506, i64 512
-  %508 = load <8 x double>, ptr %507, align 64
-  %509 = getelementptr inbounds i8, ptr %506, i64 320
-  %510 = load <8 x double>, ptr %509, align 64
-  %511 = getelementptr inbounds i8, ptr %506, i64 128
-  %512 = load <8 x double>, ptr %511, align 64
-  %513 = fmul contract <8 x double> %512, zeroinitializer
-  %514 = fmul contract <8 x double> %510, zeroinitializer
-  %515 = fadd contract <8 x double> %514, %513
-  %516 = fadd contract <8 x double> %508, %515
-  br label %517
+511:
+  %512 = load i64, ptr %0, align 64
+  %513 = add nsw i64 %512, 1
+  store i64 %513, ptr %0, align 64
+  %514 = fmul contract <8 x double> %622, %445
+  %515 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %513
+  store <8 x double> %514, ptr %515, align 64
+  br label %516
 
-517:
-  %518 = phi contract <8 x double> [ %516, %505 ], [ zeroinitializer, %498 ]
-  %519 = load i64, ptr %0, align 64
-  %520 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %519, i64 %499
-  store <8 x double> %518, ptr %520, align 64
-  %521 = icmp eq i64 %500, %8
-  br i1 %521, label %522, label %498
+516:
+  %517 = phi i64 [ 0, %511 ], [ %518, %535 ]
+  %518 = add nuw nsw i64 %517, 1
+  %519 = load ptr, ptr %298, align 8
+  %520 = getelementptr inbounds double, ptr %519, i64 %517
+  %521 = load double, ptr %520, align 8
+  %522 = fcmp contract oeq double %521, 0.000000e+00
+  br i1 %522, label %535, label %523
 
-522:
-  %523 = load i64, ptr %0, align 64
-  %524 = add nsw i64 %523, 1
-  store i64 %524, ptr %0, align 64
-  br label %897
+523:
+  %524 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %518
+  %525 = getelementptr inbounds i8, ptr %524, i64 512
+  %526 = load <8 x double>, ptr %525, align 64
+  %527 = getelementptr inbounds i8, ptr %524, i64 320
+  %528 = load <8 x double>, ptr %527, align 64
+  %529 = getelementptr inbounds i8, ptr %524, i64 128
+  %530 = load <8 x double>, ptr %529, align 64
+  %531 = fmul contract <8 x double> %530, zeroinitializer
+  %532 = fmul contract <8 x double> %528, zeroinitializer
+  %533 = fadd contract <8 x double> %532, %531
+  %534 = fadd contract <8 x double> %526, %533
+  br label %535
 
-525:
-  %526 = phi <8 x double> [ zeroinitializer, %427 ], [ %578, %525 ]
-  %527 = phi <8 x double> [ zeroinitializer, %427 ], [ %593, %525 ]
-  %528 = phi <8 x double> [ zeroinitializer, %427 ], [ %588, %525 ]
-  %529 = phi <8 x double> [ zeroinitializer, %427 ], [ %583, %525 ]
-  %530 = phi i64 [ 0, %427 ], [ %594, %525 ]
-  %531 = getelementptr inbounds double, ptr %236, i64 %530
-  %532 = load double, ptr %531, align 8
-  %533 = getelementptr inbounds i8, ptr %531, i64 24
-  %534 = load double, ptr %533, align 8
-  %535 = getelementptr inbounds i8, ptr %531, i64 48
-  %536 = load double, ptr %535, align 8
-  %537 = insertelement <8 x double> poison, double %532, i64 0
-  %538 = shufflevector <8 x double> %537, <8 x double> poison, <8 x i32> zeroinitializer
-  %539 = fmul contract <8 x double> %246, %538
-  %540 = insertelement <8 x double> poison, double %534, i64 0
-  %541 = shufflevector <8 x double> %540, <8 x double> poison, <8 x i32> zeroinitializer
-  %542 = fmul contract <8 x double> %252, %541
-  %543 = fadd contract <8 x double> %539, %542
-  %544 = insertelement <8 x double> poison, double %536, i64 0
-  %545 = shufflevector <8 x double> %544, <8 x double> poison, <8 x i32> zeroinitializer
-  %546 = fmul contract <8 x double> %258, %545
-  %547 = fadd contract <8 x double> %543, %546
-  %548 = fmul contract <8 x double> %266, %538
-  %549 = fmul contract <8 x double> %270, %541
-  %550 = fadd contract <8 x double> %548, %549
-  %551 = fmul contract <8 x double> %274, %545
-  %552 = fadd contract <8 x double> %550, %551
-  %553 = fmul contract <8 x double> %280, %538
-  %554 = fmul contract <8 x double> %284, %541
-  %555 = fadd contract <8 x double> %553, %554
-  %556 = fmul contract <8 x double> %288, %545
-  %557 = fadd contract <8 x double> %555, %556
-  %558 = getelementptr inbounds double, ptr %428, i64 %530
-  %559 = load double, ptr %558, align 8
-  %560 = insertelement <8 x double> poison, double %559, i64 0
-  %561 = shufflevector <8 x double> %560, <8 x double> poison, <8 x i32> zeroinitializer
-  %562 = fsub contract <8 x double> %547, %561
-  %563 = getelementptr inbounds i8, ptr %558, i64 24
-  %564 = load double, ptr %563, align 8
-  %565 = insertelement <8 x double> poison, double %564, i64 0
-  %566 = shufflevector <8 x double> %565, <8 x double> poison, <8 x i32> zeroinitializer
-  %567 = fsub contract <8 x double> %552, %566
-  %568 = getelementptr inbounds i8, ptr %558, i64 48
-  %569 = load double, ptr %568, align 8
-  %570 = insertelement <8 x double> poison, double %569, i64 0
-  %571 = shufflevector <8 x double> %570, <8 x double> poison, <8 x i32> zeroinitializer
-  %572 = fsub contract <8 x double> %557, %571
-  %573 = fmul contract <8 x double> %562, %562
-  %574 = fmul contract <8 x double> %567, %567
-  %575 = fadd contract <8 x double> %573, %574
-  %576 = fmul contract <8 x double> %572, %572
-  %577 = fadd contract <8 x double> %575, %576
-  %578 = fadd contract <8 x double> %526, %577
-  %579 = fmul contract <8 x double> %552, %571
-  %580 = fmul contract <8 x double> %557, %566
-  %581 = fsub contract <8 x double> %579, %580
-  %582 = fmul contract <8 x double> %581, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %583 = fadd contract <8 x double> %529, %582
-  %584 = fmul contract <8 x double> %561, %557
-  %585 = fmul contract <8 x double> %547, %571
-  %586 = fsub contract <8 x double> %584, %585
-  %587 = fmul contract <8 x double> %586, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %588 = fadd contract <8 x double> %528, %587
-  %589 = fmul contract <8 x double> %547, %566
-  %590 = fmul contract <8 x double> %561, %552
-  %591 = fsub contract <8 x double> %589, %590
-  %592 = fmul contract <8 x double> %591, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %593 = fadd contract <8 x double> %527, %592
-  %594 = add nuw nsw i64 %530, 1
-  %595 = icmp eq i64 %594, 3
-  br i1 %595, label %429, label %525
+535:
+  %536 = phi contract <8 x double> [ %534, %523 ], [ zeroinitializer, %516 ]
+  %537 = load i64, ptr %0, align 64
+  %538 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %537, i64 %517
+  store <8 x double> %536, ptr %538, align 64
+  %539 = icmp eq i64 %518, %8
+  br i1 %539, label %540, label %516
 
-596:
-  %597 = getelementptr inbounds i8, ptr %309, i64 16
-  %598 = load i64, ptr %597, align 8
-  %599 = icmp eq i64 %598, 0
-  br i1 %599, label %897, label %600
+540:
+  %541 = load i64, ptr %0, align 64
+  %542 = add nsw i64 %541, 1
+  store i64 %542, ptr %0, align 64
+  %543 = fmul contract <8 x double> %436, <double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01>
+  %544 = fmul contract <8 x double> %436, %543
+  %545 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %544
+  %546 = fcmp contract ogt <8 x double> %545, zeroinitializer
+  %547 = select contract <8 x i1> %546, <8 x double> %545, <8 x double> zeroinitializer
+  %548 = fmul contract <8 x double> %547, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %549 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %548)
+  %550 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %428
+  store <8 x double> %549, ptr %550, align 64
+  %551 = load i64, ptr %0, align 64
+  %552 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %428
+  store i64 %551, ptr %552, align 8
+  %553 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %607)
+  br label %921
 
-600:
-  %601 = getelementptr inbounds i8, ptr %309, i64 192
-  %602 = getelementptr inbounds i8, ptr %309, i64 216
-  %603 = load double, ptr %602, align 8
-  %604 = insertelement <8 x double> poison, double %603, i64 0
-  %605 = shufflevector <8 x double> %604, <8 x double> poison, <8 x i32> zeroinitializer
-  %606 = fmul contract <8 x double> %246, %605
-  %607 = getelementptr inbounds i8, ptr %309, i64 224
-  %608 = load double, ptr %607, align 8
-  %609 = insertelement <8 x double> poison, double %608, i64 0
-  %610 = shufflevector <8 x double> %609, <8 x double> poison, <8 x i32> zeroinitializer
-  %611 = fmul contract <8 x double> %252, %610
-  %612 = fadd contract <8 x double> %606, %611
-  %613 = getelementptr inbounds i8, ptr %309, i64 232
-  %614 = load double, ptr %613, align 8
-  %615 = insertelement <8 x double> poison, double %614, i64 0
-  %616 = shufflevector <8 x double> %615, <8 x double> poison, <8 x i32> zeroinitializer
-  %617 = fmul contract <8 x double> %258, %616
-  %618 = fadd contract <8 x double> %612, %617
-  %619 = fmul contract <8 x double> %266, %605
-  %620 = fmul contract <8 x double> %270, %610
-  %621 = fadd contract <8 x double> %619, %620
-  %622 = fmul contract <8 x double> %274, %616
-  %623 = fadd contract <8 x double> %621, %622
-  %624 = fmul contract <8 x double> %280, %605
-  %625 = fmul contract <8 x double> %284, %610
-  %626 = fadd contract <8 x double> %624, %625
-  %627 = fmul contract <8 x double> %288, %616
-  %628 = fadd contract <8 x double> %626, %627
-  %629 = getelementptr inbounds i8, ptr %309, i64 208
-  %630 = load double, ptr %629, align 8
-  %631 = insertelement <8 x double> poison, double %630, i64 0
-  %632 = shufflevector <8 x double> %631, <8 x double> poison, <8 x i32> zeroinitializer
-  %633 = fmul contract <8 x double> %632, %623
-  %634 = getelementptr inbounds i8, ptr %309, i64 200
-  %635 = load double, ptr %634, align 8
-  %636 = insertelement <8 x double> poison, double %635, i64 0
-  %637 = shufflevector <8 x double> %636, <8 x double> poison, <8 x i32> zeroinitializer
-  %638 = fmul contract <8 x double> %628, %637
-  %639 = fsub contract <8 x double> %633, %638
-  %640 = load double, ptr %601, align 8
-  %641 = insertelement <8 x double> poison, double %640, i64 0
-  %642 = shufflevector <8 x double> %641, <8 x double> poison, <8 x i32> zeroinitializer
-  %643 = fmul contract <8 x double> %628, %642
-  %644 = fmul contract <8 x double> %632, %618
-  %645 = fsub contract <8 x double> %643, %644
-  %646 = fmul contract <8 x double> %618, %637
-  %647 = fmul contract <8 x double> %623, %642
-  %648 = fsub contract <8 x double> %646, %647
-  %649 = fmul contract <8 x double> %639, %639
-  %650 = fmul contract <8 x double> %645, %645
-  %651 = fadd contract <8 x double> %649, %650
-  %652 = fmul contract <8 x double> %648, %648
-  %653 = fadd contract <8 x double> %652, %651
-  %654 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %653)
-  %655 = fmul contract <8 x double> %618, %642
-  %656 = fmul contract <8 x double> %623, %637
-  %657 = fadd contract <8 x double> %656, %655
-  %658 = fmul contract <8 x double> %632, %628
-  %659 = fadd contract <8 x double> %658, %657
-  %660 = fcmp contract ogt <8 x double> %659, zeroinitializer
-  %661 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %654
-  %662 = select contract <8 x i1> %660, <8 x double> %654, <8 x double> %661
-  %663 = add nsw i64 %423, 1
-  %664 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %423
-  store <8 x double> %662, ptr %664, align 64
-  %665 = getelementptr inbounds i8, ptr %309, i64 240
-  %666 = load double, ptr %665, align 8
-  %667 = fcmp contract une double %666, 0.000000e+00
-  br i1 %667, label %721, label %668
+554:
+  %555 = phi <8 x double> [ zeroinitializer, %432 ], [ %607, %554 ]
+  %556 = phi i64 [ 0, %432 ], [ %623, %554 ]
+  %557 = phi <8 x double> [ zeroinitializer, %432 ], [ %622, %554 ]
+  %558 = phi <8 x double> [ zeroinitializer, %432 ], [ %617, %554 ]
+  %559 = phi <8 x double> [ zeroinitializer, %432 ], [ %612, %554 ]
+  %560 = getelementptr inbounds double, ptr %236, i64 %556
+  %561 = load double, ptr %560, align 8
+  %562 = getelementptr inbounds i8, ptr %560, i64 24
+  %563 = load double, ptr %562, align 8
+  %564 = getelementptr inbounds i8, ptr %560, i64 48
+  %565 = load double, ptr %564, align 8
+  %566 = insertelement <8 x double> poison, double %561, i64 0
+  %567 = shufflevector <8 x double> %566, <8 x double> poison, <8 x i32> zeroinitializer
+  %568 = fmul contract <8 x double> %246, %567
+  %569 = insertelement <8 x double> poison, double %563, i64 0
+  %570 = shufflevector <8 x double> %569, <8 x double> poison, <8 x i32> zeroinitializer
+  %571 = fmul contract <8 x double> %252, %570
+  %572 = fadd contract <8 x double> %568, %571
+  %573 = insertelement <8 x double> poison, double %565, i64 0
+  %574 = shufflevector <8 x double> %573, <8 x double> poison, <8 x i32> zeroinitializer
+  %575 = fmul contract <8 x double> %258, %574
+  %576 = fadd contract <8 x double> %572, %575
+  %577 = fmul contract <8 x double> %266, %567
+  %578 = fmul contract <8 x double> %270, %570
+  %579 = fadd contract <8 x double> %577, %578
+  %580 = fmul contract <8 x double> %274, %574
+  %581 = fadd contract <8 x double> %579, %580
+  %582 = fmul contract <8 x double> %280, %567
+  %583 = fmul contract <8 x double> %284, %570
+  %584 = fadd contract <8 x double> %582, %583
+  %585 = fmul contract <8 x double> %288, %574
+  %586 = fadd contract <8 x double> %584, %585
+  %587 = getelementptr inbounds double, ptr %433, i64 %556
+  %588 = load double, ptr %587, align 8
+  %589 = insertelement <8 x double> poison, double %588, i64 0
+  %590 = shufflevector <8 x double> %589, <8 x double> poison, <8 x i32> zeroinitializer
+  %591 = fsub contract <8 x double> %576, %590
+  %592 = getelementptr inbounds i8, ptr %587, i64 24
+  %593 = load double, ptr %592, align 8
+  %594 = insertelement <8 x double> poison, double %593, i64 0
+  %595 = shufflevector <8 x double> %594, <8 x double> poison, <8 x i32> zeroinitializer
+  %596 = fsub contract <8 x double> %581, %595
+  %597 = getelementptr inbounds i8, ptr %587, i64 48
+  %598 = load double, ptr %597, align 8
+  %599 = insertelement <8 x double> poison, double %598, i64 0
+  %600 = shufflevector <8 x double> %599, <8 x double> poison, <8 x i32> zeroinitializer
+  %601 = fsub contract <8 x double> %586, %600
+  %602 = fmul contract <8 x double> %591, %591
+  %603 = fmul contract <8 x double> %596, %596
+  %604 = fadd contract <8 x double> %602, %603
+  %605 = fmul contract <8 x double> %601, %601
+  %606 = fadd contract <8 x double> %604, %605
+  %607 = fadd contract <8 x double> %555, %606
+  %608 = fmul contract <8 x double> %581, %600
+  %609 = fmul contract <8 x double> %586, %595
+  %610 = fsub contract <8 x double> %608, %609
+  %611 = fmul contract <8 x double> %610, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %612 = fadd contract <8 x double> %559, %611
+  %613 = fmul contract <8 x double> %590, %586
+  %614 = fmul contract <8 x double> %576, %600
+  %615 = fsub contract <8 x double> %613, %614
+  %616 = fmul contract <8 x double> %615, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %617 = fadd contract <8 x double> %558, %616
+  %618 = fmul contract <8 x double> %576, %595
+  %619 = fmul contract <8 x double> %590, %581
+  %620 = fsub contract <8 x double> %618, %619
+  %621 = fmul contract <8 x double> %620, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %622 = fadd contract <8 x double> %557, %621
+  %623 = add nuw nsw i64 %556, 1
+  %624 = icmp eq i64 %623, 3
+  br i1 %624, label %434, label %554
 
-668:
+625:
+  %626 = getelementptr inbounds i8, ptr %311, i64 16
+  %627 = load i64, ptr %626, align 8
+  %628 = icmp eq i64 %627, 0
+  br i1 %628, label %925, label %629
+
+629:
+  %630 = getelementptr inbounds i8, ptr %311, i64 192
+  %631 = getelementptr inbounds i8, ptr %311, i64 216
+  %632 = load double, ptr %631, align 8
+  %633 = insertelement <8 x double> poison, double %632, i64 0
+  %634 = shufflevector <8 x double> %633, <8 x double> poison, <8 x i32> zeroinitializer
+  %635 = fmul contract <8 x double> %246, %634
+  %636 = getelementptr inbounds i8, ptr %311, i64 224
+  %637 = load double, ptr %636, align 8
+  %638 = insertelement <8 x double> poison, double %637, i64 0
+  %639 = shufflevector <8 x double> %638, <8 x double> poison, <8 x i32> zeroinitializer
+  %640 = fmul contract <8 x double> %252, %639
+  %641 = fadd contract <8 x double> %635, %640
+  %642 = getelementptr inbounds i8, ptr %311, i64 232
+  %643 = load double, ptr %642, align 8
+  %644 = insertelement <8 x double> poison, double %643, i64 0
+  %645 = shufflevector <8 x double> %644, <8 x double> poison, <8 x i32> zeroinitializer
+  %646 = fmul contract <8 x double> %258, %645
+  %647 = fadd contract <8 x double> %641, %646
+  %648 = fmul contract <8 x double> %266, %634
+  %649 = fmul contract <8 x double> %270, %639
+  %650 = fadd contract <8 x double> %648, %649
+  %651 = fmul contract <8 x double> %274, %645
+  %652 = fadd contract <8 x double> %650, %651
+  %653 = fmul contract <8 x double> %280, %634
+  %654 = fmul contract <8 x double> %284, %639
+  %655 = fadd contract <8 x double> %653, %654
+  %656 = fmul contract <8 x double> %288, %645
+  %657 = fadd contract <8 x double> %655, %656
+  %658 = getelementptr inbounds i8, ptr %311, i64 208
+  %659 = load double, ptr %658, align 8
+  %660 = insertelement <8 x double> poison, double %659, i64 0
+  %661 = shufflevector <8 x double> %660, <8 x double> poison, <8 x i32> zeroinitializer
+  %662 = fmul contract <8 x double> %661, %652
+  %663 = getelementptr inbounds i8, ptr %311, i64 200
+  %664 = load double, ptr %663, align 8
+  %665 = insertelement <8 x double> poison, double %664, i64 0
+  %666 = shufflevector <8 x double> %665, <8 x double> poison, <8 x i32> zeroinitializer
+  %667 = fmul contract <8 x double> %657, %666
+  %668 = fsub contract <8 x double> %662, %667
+  %669 = load double, ptr %630, align 8
+  %670 = insertelement <8 x double> poison, double %669, i64 0
+  %671 = shufflevector <8 x double> %670, <8 x double> poison, <8 x i32> zeroinitializer
+  %672 = fmul contract <8 x double> %657, %671
+  %673 = fmul contract <8 x double> %661, %647
+  %674 = fsub contract <8 x double> %672, %673
+  %675 = fmul contract <8 x double> %647, %666
+  %676 = fmul contract <8 x double> %652, %671
+  %677 = fsub contract <8 x double> %675, %676
+  %678 = fsub contract <8 x double> %647, %671
+  %679 = fsub contract <8 x double> %652, %666
+  %680 = fsub contract <8 x double> %657, %661
+  %681 = fmul contract <8 x double> %678, %678
+  %682 = fmul contract <8 x double> %679, %679
+  %683 = fadd contract <8 x double> %682, %681
+  %684 = fmul contract <8 x double> %680, %680
+  %685 = fadd contract <8 x double> %684, %683
+  %686 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %685)
+  %687 = fmul contract <8 x double> %668, %668
+  %688 = fmul contract <8 x double> %674, %674
+  %689 = fadd contract <8 x double> %687, %688
+  %690 = fmul contract <8 x double> %677, %677
+  %691 = fadd contract <8 x double> %690, %689
+  %692 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %691)
+  %693 = fmul contract <8 x double> %647, %671
+  %694 = fmul contract <8 x double> %652, %666
+  %695 = fadd contract <8 x double> %694, %693
+  %696 = fmul contract <8 x double> %661, %657
+  %697 = fadd contract <8 x double> %696, %695
+  %698 = fcmp contract ogt <8 x double> %692, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %699 = select contract <8 x i1> %698, <8 x double> %692, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
+  %700 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %699
+  %701 = getelementptr inbounds i8, ptr %311, i64 240
+  %702 = load double, ptr %701, align 8
+  %703 = fcmp contract oeq double %702, 0.000000e+00
+  br i1 %703, label %704, label %759
+
+704:
   call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %6)
-  store <8 x double> %618, ptr %6, align 64
-  store <8 x double> %623, ptr %300, align 64
-  store <8 x double> %628, ptr %301, align 64
+  store <8 x double> %647, ptr %6, align 64
+  store <8 x double> %652, ptr %302, align 64
+  store <8 x double> %657, ptr %303, align 64
   call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %7)
-  store <8 x double> %639, ptr %7, align 64
-  store <8 x double> %645, ptr %302, align 64
-  store <8 x double> %648, ptr %303, align 64
-  %669 = load i64, ptr %0, align 64
-  br label %671
+  store <8 x double> %668, ptr %7, align 64
+  store <8 x double> %674, ptr %304, align 64
+  store <8 x double> %677, ptr %305, align 64
+  %705 = load i64, ptr %0, align 64
+  br label %707
 
-670:
+706:
   call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %7)
   call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %6)
-  br label %897
+  br label %913
 
-671:
-  %672 = phi i64 [ %669, %668 ], [ %718, %716 ]
-  %673 = phi i64 [ 0, %668 ], [ %719, %716 ]
-  %674 = getelementptr inbounds [3 x <8 x double>], ptr %6, i64 0, i64 %673
-  %675 = load <8 x double>, ptr %674, align 64
-  %676 = getelementptr inbounds [3 x <8 x double>], ptr %7, i64 0, i64 %673
-  %677 = load <8 x double>, ptr %676, align 64
-  %678 = getelementptr inbounds [3 x %struct.Point.7], ptr @__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit, i64 0, i64 %673
-  %679 = load <8 x double>, ptr %678, align 64
-  %680 = fmul contract <8 x double> %618, %675
-  %681 = fsub contract <8 x double> %679, %680
-  %682 = getelementptr inbounds i8, ptr %678, i64 64
-  %683 = load <8 x double>, ptr %682, align 64
-  %684 = fmul contract <8 x double> %623, %675
-  %685 = fsub contract <8 x double> %683, %684
-  %686 = getelementptr inbounds i8, ptr %678, i64 128
-  %687 = load <8 x double>, ptr %686, align 64
-  %688 = fmul contract <8 x double> %628, %675
-  %689 = fsub contract <8 x double> %687, %688
-  %690 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %672
-  store <8 x double> %677, ptr %690, align 64
-  br i1 %24, label %691, label %716
+707:
+  %708 = phi i64 [ %705, %704 ], [ %756, %754 ]
+  %709 = phi i64 [ 0, %704 ], [ %757, %754 ]
+  %710 = getelementptr inbounds [3 x <8 x double>], ptr %6, i64 0, i64 %709
+  %711 = load <8 x double>, ptr %710, align 64
+  %712 = getelementptr inbounds [3 x %struct.Point.7], ptr @__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit, i64 0, i64 %709
+  %713 = load <8 x double>, ptr %712, align 64
+  %714 = fmul contract <8 x double> %647, %711
+  %715 = fsub contract <8 x double> %713, %714
+  %716 = getelementptr inbounds i8, ptr %712, i64 64
+  %717 = load <8 x double>, ptr %716, align 64
+  %718 = fmul contract <8 x double> %652, %711
+  %719 = fsub contract <8 x double> %717, %718
+  %720 = getelementptr inbounds i8, ptr %712, i64 128
+  %721 = load <8 x double>, ptr %720, align 64
+  %722 = fmul contract <8 x double> %657, %711
+  %723 = fsub contract <8 x double> %721, %722
+  %724 = getelementptr inbounds [3 x <8 x double>], ptr %7, i64 0, i64 %709
+  %725 = load <8 x double>, ptr %724, align 64
+  %726 = fmul contract <8 x double> %686, %725
+  %727 = fmul contract <8 x double> %700, %726
+  %728 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %708
+  store <8 x double> %727, ptr %728, align 64
+  br i1 %24, label %729, label %754
 
-691:
-  %692 = phi i64 [ %693, %711 ], [ 0, %671 ]
-  %693 = add nuw nsw i64 %692, 1
-  %694 = load ptr, ptr %298, align 8
-  %695 = getelementptr inbounds double, ptr %694, i64 %692
-  %696 = load double, ptr %695, align 8
-  %697 = fcmp contract oeq double %696, 0.000000e+00
-  br i1 %697, label %711, label %698
+729:
+  %730 = phi i64 [ %731, %749 ], [ 0, %707 ]
+  %731 = add nuw nsw i64 %730, 1
+  %732 = load ptr, ptr %298, align 8
+  %733 = getelementptr inbounds double, ptr %732, i64 %730
+  %734 = load double, ptr %733, align 8
+  %735 = fcmp contract oeq double %734, 0.000000e+00
+  br i1 %735, label %749, label %736
 
-698:
-  %699 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %693
-  %700 = getelementptr inbounds i8, ptr %699, i64 512
-  %701 = load <8 x double>, ptr %700, align 64
-  %702 = getelementptr inbounds i8, ptr %699, i64 320
-  %703 = load <8 x double>, ptr %702, align 64
-  %704 = getelementptr inbounds i8, ptr %699, i64 128
-  %705 = load <8 x double>, ptr %704, align 64
-  %706 = fmul contract <8 x double> %681, %705
-  %707 = fmul contract <8 x double> %685, %703
-  %708 = fadd contract <8 x double> %707, %706
-  %709 = fmul contract <8 x double> %689, %701
-  %710 = fadd contract <8 x double> %709, %708
-  br label %711
+736:
+  %737 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %731
+  %738 = getelementptr inbounds i8, ptr %737, i64 512
+  %739 = load <8 x double>, ptr %738, align 64
+  %740 = getelementptr inbounds i8, ptr %737, i64 320
+  %741 = load <8 x double>, ptr %740, align 64
+  %742 = getelementptr inbounds i8, ptr %737, i64 128
+  %743 = load <8 x double>, ptr %742, align 64
+  %744 = fmul contract <8 x double> %715, %743
+  %745 = fmul contract <8 x double> %719, %741
+  %746 = fadd contract <8 x double> %745, %744
+  %747 = fmul contract <8 x double> %723, %739
+  %748 = fadd contract <8 x double> %747, %746
+  br label %749
 
-711:
-  %712 = phi contract <8 x double> [ %710, %698 ], [ zeroinitializer, %691 ]
-  %713 = load i64, ptr %0, align 64
-  %714 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %713, i64 %692
-  store <8 x double> %712, ptr %714, align 64
-  %715 = icmp eq i64 %693, %8
-  br i1 %715, label %716, label %691
+749:
+  %750 = phi contract <8 x double> [ %748, %736 ], [ zeroinitializer, %729 ]
+  %751 = load i64, ptr %0, align 64
+  %752 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %751, i64 %730
+  store <8 x double> %750, ptr %752, align 64
+  %753 = icmp eq i64 %731, %8
+  br i1 %753, label %754, label %729
 
-716:
-  %717 = load i64, ptr %0, align 64
-  %718 = add nsw i64 %717, 1
-  store i64 %718, ptr %0, align 64
-  %719 = add nuw nsw i64 %673, 1
-  %720 = icmp eq i64 %719, 3
-  br i1 %720, label %670, label %671
+754:
+  %755 = load i64, ptr %0, align 64
+  %756 = add nsw i64 %755, 1
+  store i64 %756, ptr %0, align 64
+  %757 = add nuw nsw i64 %709, 1
+  %758 = icmp eq i64 %757, 3
+  br i1 %758, label %706, label %707
 
-721:
-  %722 = load double, ptr %601, align 8
-  %723 = insertelement <8 x double> poison, double %722, i64 0
-  %724 = shufflevector <8 x double> %723, <8 x double> poison, <8 x i32> zeroinitializer
-  %725 = fsub contract <8 x double> %618, %724
-  %726 = load double, ptr %634, align 8
-  %727 = insertelement <8 x double> poison, double %726, i64 0
-  %728 = shufflevector <8 x double> %727, <8 x double> poison, <8 x i32> zeroinitializer
-  %729 = fsub contract <8 x double> %623, %728
-  %730 = load double, ptr %629, align 8
-  %731 = insertelement <8 x double> poison, double %730, i64 0
-  %732 = shufflevector <8 x double> %731, <8 x double> poison, <8 x i32> zeroinitializer
-  %733 = fsub contract <8 x double> %628, %732
-  %734 = fmul contract <8 x double> %725, %725
-  %735 = fmul contract <8 x double> %729, %729
-  %736 = fadd contract <8 x double> %734, %735
-  %737 = fmul contract <8 x double> %733, %733
-  %738 = fadd contract <8 x double> %736, %737
-  %739 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %738)
-  %740 = fmul contract <8 x double> %739, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %741 = fmul contract <8 x double> %740, %740
-  %742 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %741
-  %743 = fcmp contract ogt <8 x double> %742, zeroinitializer
-  %744 = select contract <8 x i1> %743, <8 x double> %742, <8 x double> zeroinitializer
-  %745 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %744)
-  %746 = fmul contract double %666, 4.500000e-01
-  %747 = fadd contract double %746, 0.000000e+00
-  %748 = insertelement <8 x double> poison, double %747, i64 0
-  %749 = shufflevector <8 x double> %748, <8 x double> poison, <8 x i32> zeroinitializer
-  %750 = fmul contract <8 x double> %749, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %751 = fadd contract <8 x double> %750, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %752 = fadd contract <8 x double> %751, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %753 = fmul contract <8 x double> %752, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %754 = fsub contract <8 x double> %749, %753
-  %755 = fmul contract <8 x double> %752, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %756 = fsub contract <8 x double> %754, %755
-  %757 = fmul contract <8 x double> %752, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %758 = fsub contract <8 x double> %756, %757
-  %759 = fmul contract <8 x double> %752, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %760 = fadd contract <8 x double> %759, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %761 = fadd contract <8 x double> %760, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %762 = fsub contract <8 x double> %759, %761
-  %763 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %762)
-  %764 = fmul contract <8 x double> %763, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %765 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %764
-  %766 = fmul contract <8 x double> %758, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %767 = fmul contract <8 x double> %766, %766
-  %768 = fmul contract <8 x double> %766, %767
-  %769 = fmul contract <8 x double> %767, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %770 = fadd contract <8 x double> %769, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %771 = fmul contract <8 x double> %767, %770
-  %772 = fadd contract <8 x double> %771, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %773 = fmul contract <8 x double> %767, %772
-  %774 = fadd contract <8 x double> %773, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %775 = fmul contract <8 x double> %767, %774
-  %776 = fadd contract <8 x double> %775, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %777 = fmul contract <8 x double> %767, %776
-  %778 = fadd contract <8 x double> %777, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %779 = fmul contract <8 x double> %768, %778
-  %780 = fadd contract <8 x double> %766, %779
-  %781 = fmul contract <8 x double> %767, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %782 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %781
-  %783 = fmul contract <8 x double> %767, %767
-  %784 = fmul contract <8 x double> %767, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %785 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %784
-  %786 = fmul contract <8 x double> %767, %785
-  %787 = fadd contract <8 x double> %786, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %788 = fmul contract <8 x double> %767, %787
-  %789 = fadd contract <8 x double> %788, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %790 = fmul contract <8 x double> %767, %789
-  %791 = fadd contract <8 x double> %790, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %792 = fmul contract <8 x double> %767, %791
-  %793 = fadd contract <8 x double> %792, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
-  %794 = fmul contract <8 x double> %783, %793
-  %795 = fadd contract <8 x double> %782, %794
-  %796 = fmul contract <8 x double> %765, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %797 = fmul contract <8 x double> %796, %780
-  %798 = fmul contract <8 x double> %795, %797
-  %799 = fadd contract double %666, -1.000000e-09
-  %800 = fmul contract double %799, 5.000000e-01
-  %801 = fadd contract double %800, 0.000000e+00
-  %802 = insertelement <8 x double> poison, double %801, i64 0
-  %803 = shufflevector <8 x double> %802, <8 x double> poison, <8 x i32> zeroinitializer
-  %804 = fmul contract <8 x double> %803, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %805 = fadd contract <8 x double> %804, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %806 = fadd contract <8 x double> %805, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %807 = fmul contract <8 x double> %806, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %808 = fsub contract <8 x double> %803, %807
-  %809 = fmul contract <8 x double> %806, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %810 = fsub contract <8 x double> %808, %809
-  %811 = fmul contract <8 x double> %806, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %812 = fsub contract <8 x double> %810, %811
-  %813 = fmul contract <8 x double> %806, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %814 = fadd contract <8 x double> %813, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %815 = fadd contract <8 x double> %814, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %816 = fsub contract <8 x double> %813, %815
-  %817 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %816)
-  %818 = fmul contract <8 x double> %817, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %819 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %818
-  %820 = fmul contract <8 x double> %812, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %821 = fmul contract <8 x double> %820, %820
-  %822 = fmul contract <8 x double> %820, %821
-  %823 = fmul contract <8 x double> %821, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %824 = fadd contract <8 x double> %823, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %825 = fmul contract <8 x double> %821, %824
-  %826 = fadd contract <8 x double> %825, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %827 = fmul contract <8 x double> %821, %826
-  %828 = fadd contract <8 x double> %827, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %829 = fmul contract <8 x double> %821, %828
-  %830 = fadd contract <8 x double> %829, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %831 = fmul contract <8 x double> %821, %830
-  %832 = fadd contract <8 x double> %831, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %833 = fmul contract <8 x double> %822, %832
-  %834 = fadd contract <8 x double> %820, %833
-  %835 = fmul contract <8 x double> %821, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %836 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %835
-  %837 = fmul contract <8 x double> %821, %821
-  %838 = fmul contract <8 x double> %821, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %839 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %838
-  %840 = fmul contract <8 x double> %821, %839
-  %841 = fadd contract <8 x double> %840, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %842 = fmul contract <8 x double> %821, %841
-  %843 = fadd contract <8 x double> %842, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %844 = fmul contract <8 x double> %821, %843
-  %845 = fadd contract <8 x double> %844, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %846 = fmul contract <8 x double> %821, %845
-  %847 = fadd contract <8 x double> %846, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
-  %848 = fmul contract <8 x double> %837, %847
-  %849 = fadd contract <8 x double> %836, %848
-  %850 = fmul contract <8 x double> %819, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %851 = fmul contract <8 x double> %850, %834
-  %852 = fmul contract <8 x double> %849, %851
-  %853 = fcmp contract ogt <8 x double> %740, %852
-  %854 = fcmp contract ogt <8 x double> %654, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
-  %855 = select contract <8 x i1> %854, <8 x double> %654, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
-  %856 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %855
-  %857 = select contract <8 x i1> %853, <8 x double> %856, <8 x double> zeroinitializer
-  %858 = fsub contract <8 x double> %740, %798
-  %859 = fmul contract <8 x double> %858, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %860 = fcmp contract ogt <8 x double> %745, <double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01>
-  %861 = select contract <8 x i1> %860, <8 x double> %745, <8 x double> <double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01, double 1.000000e-01>
-  %862 = fdiv contract <8 x double> %859, %861
-  %863 = select contract <8 x i1> %853, <8 x double> %862, <8 x double> zeroinitializer
-  %864 = fmul contract <8 x double> %639, %857
-  %865 = fmul contract <8 x double> %645, %857
-  %866 = fmul contract <8 x double> %648, %857
-  %867 = load i64, ptr %0, align 64
-  %868 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %867
-  store <8 x double> %863, ptr %868, align 64
-  br i1 %24, label %869, label %894
+759:
+  %760 = fmul contract double %702, 4.500000e-01
+  %761 = fadd contract double %760, 0.000000e+00
+  %762 = insertelement <8 x double> poison, double %761, i64 0
+  %763 = shufflevector <8 x double> %762, <8 x double> poison, <8 x i32> zeroinitializer
+  %764 = fmul contract <8 x double> %763, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %765 = fadd contract <8 x double> %764, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %766 = fadd contract <8 x double> %765, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %767 = fmul contract <8 x double> %766, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %768 = fsub contract <8 x double> %763, %767
+  %769 = fmul contract <8 x double> %766, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %770 = fsub contract <8 x double> %768, %769
+  %771 = fmul contract <8 x double> %766, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %772 = fsub contract <8 x double> %770, %771
+  %773 = fmul contract <8 x double> %766, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %774 = fadd contract <8 x double> %773, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %775 = fadd contract <8 x double> %774, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %776 = fsub contract <8 x double> %773, %775
+  %777 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %776)
+  %778 = fmul contract <8 x double> %777, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %779 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %778
+  %780 = fmul contract <8 x double> %772, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %781 = fmul contract <8 x double> %780, %780
+  %782 = fmul contract <8 x double> %780, %781
+  %783 = fmul contract <8 x double> %781, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %784 = fadd contract <8 x double> %783, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %785 = fmul contract <8 x double> %781, %784
+  %786 = fadd contract <8 x double> %785, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %787 = fmul contract <8 x double> %781, %786
+  %788 = fadd contract <8 x double> %787, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %789 = fmul contract <8 x double> %781, %788
+  %790 = fadd contract <8 x double> %789, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %791 = fmul contract <8 x double> %781, %790
+  %792 = fadd contract <8 x double> %791, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %793 = fmul contract <8 x double> %782, %792
+  %794 = fadd contract <8 x double> %780, %793
+  %795 = fmul contract <8 x double> %781, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %796 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %795
+  %797 = fmul contract <8 x double> %781, %781
+  %798 = fmul contract <8 x double> %781, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %799 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %798
+  %800 = fmul contract <8 x double> %781, %799
+  %801 = fadd contract <8 x double> %800, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %802 = fmul contract <8 x double> %781, %801
+  %803 = fadd contract <8 x double> %802, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %804 = fmul contract <8 x double> %781, %803
+  %805 = fadd contract <8 x double> %804, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %806 = fmul contract <8 x double> %781, %805
+  %807 = fadd contract <8 x double> %806, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %808 = fmul contract <8 x double> %797, %807
+  %809 = fadd contract <8 x double> %796, %808
+  %810 = fmul contract <8 x double> %779, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %811 = fmul contract <8 x double> %810, %794
+  %812 = fmul contract <8 x double> %809, %811
+  %813 = fadd contract double %702, -1.000000e-09
+  %814 = fmul contract double %813, 5.000000e-01
+  %815 = fadd contract double %814, 0.000000e+00
+  %816 = insertelement <8 x double> poison, double %815, i64 0
+  %817 = shufflevector <8 x double> %816, <8 x double> poison, <8 x i32> zeroinitializer
+  %818 = fmul contract <8 x double> %817, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %819 = fadd contract <8 x double> %818, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %820 = fadd contract <8 x double> %819, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %821 = fmul contract <8 x double> %820, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %822 = fsub contract <8 x double> %817, %821
+  %823 = fmul contract <8 x double> %820, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %824 = fsub contract <8 x double> %822, %823
+  %825 = fmul contract <8 x double> %820, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %826 = fsub contract <8 x double> %824, %825
+  %827 = fmul contract <8 x double> %820, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %828 = fadd contract <8 x double> %827, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %829 = fadd contract <8 x double> %828, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %830 = fsub contract <8 x double> %827, %829
+  %831 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %830)
+  %832 = fmul contract <8 x double> %831, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %833 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %832
+  %834 = fmul contract <8 x double> %826, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %835 = fmul contract <8 x double> %834, %834
+  %836 = fmul contract <8 x double> %834, %835
+  %837 = fmul contract <8 x double> %835, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %838 = fadd contract <8 x double> %837, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %839 = fmul contract <8 x double> %835, %838
+  %840 = fadd contract <8 x double> %839, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %841 = fmul contract <8 x double> %835, %840
+  %842 = fadd contract <8 x double> %841, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %843 = fmul contract <8 x double> %835, %842
+  %844 = fadd contract <8 x double> %843, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %845 = fmul contract <8 x double> %835, %844
+  %846 = fadd contract <8 x double> %845, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
+  %847 = fmul contract <8 x double> %836, %846
+  %848 = fadd contract <8 x double> %834, %847
+  %849 = fmul contract <8 x double> %835, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %850 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %849
+  %851 = fmul contract <8 x double> %835, %835
+  %852 = fmul contract <8 x double> %835, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %853 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %852
+  %854 = fmul contract <8 x double> %835, %853
+  %855 = fadd contract <8 x double> %854, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %856 = fmul contract <8 x double> %835, %855
+  %857 = fadd contract <8 x double> %856, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %858 = fmul contract <8 x double> %835, %857
+  %859 = fadd contract <8 x double> %858, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %860 = fmul contract <8 x double> %835, %859
+  %861 = fadd contract <8 x double> %860, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %862 = fmul contract <8 x double> %851, %861
+  %863 = fadd contract <8 x double> %850, %862
+  %864 = fmul contract <8 x double> %833, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %865 = fmul contract <8 x double> %864, %848
+  %866 = fmul contract <8 x double> %863, %865
+  %867 = fmul contract <8 x double> %866, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %868 = fcmp contract ogt <8 x double> %686, %867
+  %869 = fmul contract <8 x double> %686, <double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01>
+  %870 = fmul contract <8 x double> %686, %869
+  %871 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %870
+  %872 = fcmp contract ogt <8 x double> %871, <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
+  %873 = select contract <8 x i1> %872, <8 x double> %871, <8 x double> <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
+  %874 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %873)
+  %875 = select contract <8 x i1> %868, <8 x double> %700, <8 x double> zeroinitializer
+  %876 = fmul contract <8 x double> %812, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %877 = fsub contract <8 x double> %686, %876
+  %878 = fdiv contract <8 x double> %877, %874
+  %879 = select contract <8 x i1> %868, <8 x double> %878, <8 x double> zeroinitializer
+  %880 = fmul contract <8 x double> %668, %875
+  %881 = fmul contract <8 x double> %674, %875
+  %882 = fmul contract <8 x double> %677, %875
+  %883 = load i64, ptr %0, align 64
+  %884 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %883
+  store <8 x double> %879, ptr %884, align 64
+  br i1 %24, label %885, label %910
 
-869:
-  %870 = phi i64 [ %871, %889 ], [ 0, %721 ]
-  %871 = add nuw nsw i64 %870, 1
-  %872 = load ptr, ptr %298, align 8
-  %873 = getelementptr inbounds double, ptr %872, i64 %870
-  %874 = load double, ptr %873, align 8
-  %875 = fcmp contract oeq double %874, 0.000000e+00
-  br i1 %875, label %889, label %876
+885:
+  %886 = phi i64 [ %887, %905 ], [ 0, %759 ]
+  %887 = add nuw nsw i64 %886, 1
+  %888 = load ptr, ptr %298, align 8
+  %889 = getelementptr inbounds double, ptr %888, i64 %886
+  %890 = load double, ptr %889, align 8
+  %891 = fcmp contract oeq double %890, 0.000000e+00
+  br i1 %891, label %905, label %892
 
-876:
-  %877 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %871
-  %878 = getelementptr inbounds i8, ptr %877, i64 512
-  %879 = load <8 x double>, ptr %878, align 64
-  %880 = getelementptr inbounds i8, ptr %877, i64 320
-  %881 = load <8 x double>, ptr %880, align 64
-  %882 = getelementptr inbounds i8, ptr %877, i64 128
-  %883 = load <8 x double>, ptr %882, align 64
-  %884 = fmul contract <8 x double> %864, %883
-  %885 = fmul contract <8 x double> %865, %881
-  %886 = fadd contract <8 x double> %885, %884
-  %887 = fmul contract <8 x double> %866, %879
-  %888 = fadd contract <8 x double> %887, %886
-  br label %889
+892:
+  %893 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %887
+  %894 = getelementptr inbounds i8, ptr %893, i64 512
+  %895 = load <8 x double>, ptr %894, align 64
+  %896 = getelementptr inbounds i8, ptr %893, i64 320
+  %897 = load <8 x double>, ptr %896, align 64
+  %898 = getelementptr inbounds i8, ptr %893, i64 128
+  %899 = load <8 x double>, ptr %898, align 64
+  %900 = fmul contract <8 x double> %880, %899
+  %901 = fmul contract <8 x double> %881, %897
+  %902 = fadd contract <8 x double> %901, %900
+  %903 = fmul contract <8 x double> %882, %895
+  %904 = fadd contract <8 x double> %903, %902
+  br label %905
 
-889:
-  %890 = phi contract <8 x double> [ %888, %876 ], [ zeroinitializer, %869 ]
-  %891 = load i64, ptr %0, align 64
-  %892 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %891, i64 %870
-  store <8 x double> %890, ptr %892, align 64
-  %893 = icmp eq i64 %871, %8
-  br i1 %893, label %894, label %869
+905:
+  %906 = phi contract <8 x double> [ %904, %892 ], [ zeroinitializer, %885 ]
+  %907 = load i64, ptr %0, align 64
+  %908 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %907, i64 %886
+  store <8 x double> %906, ptr %908, align 64
+  %909 = icmp eq i64 %887, %8
+  br i1 %909, label %910, label %885
 
-894:
-  %895 = load i64, ptr %0, align 64
-  %896 = add nsw i64 %895, 1
-  store i64 %896, ptr %0, align 64
-  br label %897
+910:
+  %911 = load i64, ptr %0, align 64
+  %912 = add nsw i64 %911, 1
+  store i64 %912, ptr %0, align 64
+  br label %913
 
-897:
-  %898 = phi i64 [ %431, %522 ], [ %423, %596 ], [ %663, %894 ], [ %663, %670 ]
-  %899 = add nuw nsw i64 %307, 1
-  %900 = load i64, ptr %291, align 8
-  %901 = icmp slt i64 %899, %900
-  br i1 %901, label %305, label %304
+913:
+  %914 = fcmp contract ogt <8 x double> %697, zeroinitializer
+  %915 = select contract <8 x i1> %914, <8 x double> %697, <8 x double> <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
+  %916 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %428
+  store <8 x double> %915, ptr %916, align 64
+  %917 = load i64, ptr %0, align 64
+  %918 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %428
+  store i64 %917, ptr %918, align 8
+  %919 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %692
+  %920 = select contract <8 x i1> %914, <8 x double> %692, <8 x double> %919
+  br label %921
+
+921:
+  %922 = phi <8 x double> [ %920, %913 ], [ %553, %540 ]
+  %923 = add nsw i64 %428, 1
+  %924 = getelementptr inbounds [24 x <8 x double>], ptr %301, i64 0, i64 %428
+  store <8 x double> %922, ptr %924, align 64
+  br label %925
+
+925:
+  %926 = phi i64 [ %428, %625 ], [ %923, %921 ]
+  %927 = add nuw nsw i64 %309, 1
+  %928 = load i64, ptr %291, align 8
+  %929 = icmp slt i64 %927, %928
+  br i1 %929, label %307, label %306
 }
 
 declare float @llvm.sqrt.f32(float)
