@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.model.collision.clearance import Clearance
-from holdfast.model.collision.compiled.library import load_library
+from holdfast.model.collision.compiled.library import list_fields, load_library
 from holdfast.model.collision.compiled.scene import MAX_JOINTS, MAX_PARTS, CompiledScene, SceneTables
 
 CHECK_SPACING_M = 0.05  # largest possible motion between the configurations that are checked before a proof
@@ -83,19 +83,10 @@ class _ProblemAddresses(Structure):
     """Structure ``Problem`` of route_search.cpp."""
 
     _fields_ = (
-        ("low", c_void_p),
-        ("high", c_void_p),
-        ("scale", c_void_p),
-        ("revolution", c_void_p),
-        ("has_largest_joint_metric", c_int64),
-        ("max_nodes", c_int64),
-        ("max_rounds", c_int64),
-        ("max_shortcut_failures", c_int64),
-        ("nodes", c_void_p),
-        ("parents", c_void_p),
-        ("largest_step", c_float),
-        ("sample_spacing", c_float),
-        ("room", c_float),
+        *list_fields(c_void_p, "low high scale revolution"),
+        *list_fields(c_int64, "has_largest_joint_metric max_nodes max_rounds max_shortcut_failures"),
+        *list_fields(c_void_p, "nodes parents"),
+        *list_fields(c_float, "largest_step sample_spacing room"),
     )
 
 

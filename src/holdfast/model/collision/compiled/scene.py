@@ -15,6 +15,7 @@ from holdfast.model.arm.model import Arm
 from holdfast.model.cell.solids import PrimitiveSolid
 from holdfast.model.collision.capsules import Capsules
 from holdfast.model.collision.clearance import Clearance
+from holdfast.model.collision.compiled.library import list_fields
 from holdfast.model.collision.object_kernels import FAR_AWAY_M
 from holdfast.model.collision.sphere_cover import make_sphere_cover
 
@@ -151,8 +152,8 @@ class _SceneAddresses(Structure):
     """Structure ``Scene`` of route_search.cpp: counts, and the addresses of the tables in their order."""
 
     _fields_ = (
-        *((name, c_int64) for name in ("joint_count", "object_count", "link_pair_count")),
-        *((name, c_void_p) for name in SceneTables._fields),
+        *list_fields(c_int64, "joint_count object_count link_pair_count"),
+        *list_fields(c_void_p, " ".join(SceneTables._fields)),
     )
 
 

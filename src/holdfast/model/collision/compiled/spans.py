@@ -8,7 +8,7 @@ import numpy as np
 
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.model.collision.clearance import Clearance
-from holdfast.model.collision.compiled.library import load_library
+from holdfast.model.collision.compiled.library import list_fields, load_library
 from holdfast.model.collision.compiled.scene import CompiledScene, SceneTables
 
 _ROUNDING_M = 1e-4  # errors of distances in single precision, for an arm and a cell of this size:
@@ -22,12 +22,9 @@ class _SpanAddresses(Structure):
     """Structure ``Spans`` of route_search.cpp."""
 
     _fields_ = (
-        ("before", c_void_p),
-        ("after", c_void_p),
-        ("stride", c_int64),
-        ("time_row", c_int64),
-        ("allowance", c_float),
-        ("finest", c_float),
+        *list_fields(c_void_p, "before after"),
+        *list_fields(c_int64, "stride time_row"),
+        *list_fields(c_float, "allowance finest"),
     )
 
 
