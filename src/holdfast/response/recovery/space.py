@@ -244,11 +244,10 @@ class FreeSpace:
             return [
                 target[None] if indices else start[:0] for target, indices in zip(targets, has_arrived, strict=True)
             ], has_arrived
-        extensions, has_arrived = self.manifold.compiled.extend_paths(
+        extensions, has_arrived = self.manifold.extend_paths(
             start,
             targets,
-            self.manifold.is_satisfied(targets) & self.are_within_limits(targets),
-            scale=metric.scale,
+            metric.scale,
             has_largest_joint_metric=metric.name == "time",
             edges=self.edges,
             resolution=MIN_RESOLVED_MOTION_M,

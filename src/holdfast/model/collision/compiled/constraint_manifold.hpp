@@ -24,7 +24,7 @@ struct Constraint {
 };
 
 struct Manifold {
-  Int joint_count, constraint_count, length_count, has_largest_joint_metric;
+  Int joint_count, constraint_count, length_count;
   const Joint<double> *joints;
   const Constraint *constraints;
   const double *tool;  // (12) rotation by rows, and position, in the frame of the last link
@@ -33,12 +33,12 @@ struct Manifold {
   const double *is_revolute;  // (n) 1 or 0
   const double *lever_arms;  // (n) largest motion of the tool per unit of each joint
   const double *second_derivatives;  // (n, n) bounds of those of the position
-  const double *scale;  // (n) of the joints in the length of a path
 };
 
 struct Extensions {
   const double *starts, *targets;  // (count, n)
-  const char *may_arrive;  // (count) 1 for targets that are valid
+  const double *scale;  // (n) of the joints in lengths
+  Int has_largest_joint_metric;  // length is the largest scaled joint motion instead of the Euclidean norm
   Int count, max_steps;
   double resolution;  // change of distances, m, below which a piece that is not proved counts as blocked
   const double *zeros;  // (64)
@@ -326,13 +326,13 @@ static bool prove_constraints(const Manifold &manifold, const double *start, con
   return true;
 }
 
-INLINE Reals measure_length(const Manifold &manifold, const Reals *difference) {
+INLINE Reals measure_length(const Extensions &paths, Int joint_count, const Reals *difference) {
   Reals square = {}, largest = {};
-  for (Int j = 0; j < manifold.joint_count; j++) {
-    const Reals scaled = absolute(difference[j] * manifold.scale[j]);
+  for (Int j = 0; j < joint_count; j++) {
+    const Reals scaled = absolute(difference[j] * paths.scale[j]);
     square += scaled * scaled, largest = larger(largest, scaled);
   }
-  return manifold.has_largest_joint_metric ? largest : square_root(square);
+  return paths.has_largest_joint_metric ? largest : square_root(square);
 }
 
 // Extend paths from starts towards targets, as far as each step comes nearer and is proved valid. Each step uses up at most half
@@ -348,16 +348,22 @@ static void extend_paths(const Manifold &manifold, const Scene<double> *scene, c
   for (Int k = 0; k < COUNT; k++) path[k] = -1;
   for (Int j = 0; j < n; j++) q[j] = targets[j] = none;
   while (true) {
+    const bool has_new_paths = active < COUNT && next < paths.count;
     for (Int k = 0; k < COUNT && next < paths.count; k++) {
       if (path[k] >= 0) continue;
       path[k] = next++, active++;
       for (Int j = 0; j < n; j++) q[j][k] = paths.starts[path[k] * n + j], targets[j][k] = paths.targets[path[k] * n + j];
-      may_arrive[k] = paths.may_arrive[path[k]] ? -1 : 0;
       paths.point_counts[path[k]] = 0, paths.has_arrived[path[k]] = 0;
     }
     if (!active) return;
+    if (has_new_paths) {  // only a valid target may become the last point
+      errors.evaluate<false>(manifold, targets);
+      may_arrive = none == none;
+      for (Int j = 0; j < n; j++) may_arrive &= (targets[j] >= manifold.low[j]) & (targets[j] <= manifold.high[j]);
+      for (Int k = 0; k < manifold.length_count; k++) may_arrive &= errors.lengths[k] <= manifold.bounds[k] + ROUNDING;
+    }
     for (Int j = 0; j < n; j++) remaining[j] = targets[j] - q[j];
-    const Reals distance = measure_length(manifold, remaining);
+    const Reals distance = measure_length(paths, n, remaining);
     bound_curvature(manifold, remaining, curvature);
     Reals fraction = none + 1.0;
     for (Int k = 0; k < manifold.length_count; k++)
@@ -369,9 +375,9 @@ static void extend_paths(const Manifold &manifold, const Scene<double> *scene, c
       candidates[j] = is_last ? targets[j] : next_q;
     }
     project(manifold, candidates, ~is_last, errors);
-    const Reals step_length = measure_length(manifold, steps);
+    const Reals step_length = measure_length(paths, n, steps);
     for (Int j = 0; j < n; j++) remaining[j] = targets[j] - candidates[j], steps[j] = candidates[j] - q[j];
-    const Flags is_closer = (distance > 0.0) & (distance - measure_length(manifold, remaining) > MIN_PROGRESS * step_length);
+    const Flags is_closer = (distance > 0.0) & (distance - measure_length(paths, n, remaining) > MIN_PROGRESS * step_length);
     for (Int k = 0; k < COUNT; k++) {
       if (path[k] < 0) continue;
       double start[MAX_CHAIN], difference[MAX_CHAIN];

@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 54f772872a8f962a7398e2bb4b20a7c020b31d0109dd403ea2bffc51627a0875, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 71fe594d1a37eecbdb7c7817fad97a3a6425d33adde0facd9bab9854e5406ffc, by tools/native.py. Do not edit.
 
 %struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
@@ -3168,7 +3168,7 @@ define void @prove_constraints(ptr noundef %0, ptr nocapture noundef readonly %1
   %17 = load i64, ptr %9, align 8
   %18 = mul nsw i64 %17, %12
   %19 = getelementptr inbounds double, ptr %3, i64 %18
-  %20 = tail call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef %15, ptr noundef %16, ptr noundef %19)
+  %20 = tail call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef %15, ptr noundef %16, ptr noundef %19)
   %21 = zext i1 %20 to i8
   %22 = getelementptr inbounds i8, ptr %5, i64 %12
   store i8 %21, ptr %22, align 1
@@ -3177,7 +3177,7 @@ define void @prove_constraints(ptr noundef %0, ptr nocapture noundef readonly %1
   br i1 %24, label %10, label %11
 }
 
-define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3) unnamed_addr {
+define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(104) %0, ptr nocapture noundef readonly %1, ptr nocapture noundef readonly %2, ptr nocapture noundef readonly %3) unnamed_addr {
   %5 = alloca [64 x <8 x double>], align 64
   %6 = alloca [64 x <8 x double>], align 64
   %7 = alloca [24 x <8 x double>], align 64
@@ -3197,7 +3197,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %13, label %15, label %43
 
 15:
-  %16 = getelementptr inbounds i8, ptr %0, i64 88
+  %16 = getelementptr inbounds i8, ptr %0, i64 80
   %17 = load ptr, ptr %16, align 8
   br label %22
 
@@ -3205,7 +3205,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %13, label %19, label %43
 
 19:
-  %20 = getelementptr inbounds i8, ptr %0, i64 104
+  %20 = getelementptr inbounds i8, ptr %0, i64 96
   %21 = load ptr, ptr %20, align 8
   br label %36
 
@@ -3243,7 +3243,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %48, label %49, label %100
 
 49:
-  %50 = getelementptr inbounds i8, ptr %0, i64 40
+  %50 = getelementptr inbounds i8, ptr %0, i64 32
   %51 = load ptr, ptr %50, align 8
   %52 = fmul contract <8 x double> %44, %44
   br label %71
@@ -3321,7 +3321,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   call void @llvm.lifetime.start.p0(i64 103168, ptr nonnull %10)
   %102 = getelementptr inbounds i8, ptr %0, i64 16
   %103 = getelementptr inbounds i8, ptr %10, i64 256
-  %104 = getelementptr inbounds i8, ptr %0, i64 56
+  %104 = getelementptr inbounds i8, ptr %0, i64 48
   br label %115
 
 105:
@@ -3370,7 +3370,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %138, label %119, label %122
 
 139:
-  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %6)
   %140 = load i64, ptr %102, align 8
   %141 = icmp sgt i64 %140, 0
   br i1 %141, label %160, label %157
@@ -3411,7 +3411,7 @@ define internal fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS
   br i1 %166, label %157, label %160
 
 167:
-  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %10, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %6)
   %168 = load i64, ptr %102, align 8
   %169 = icmp sgt i64 %168, 0
   br i1 %169, label %170, label %189
@@ -3554,14 +3554,14 @@ define void @exclude_boxes(ptr noundef %0, ptr nocapture noundef readonly %1, pt
   br i1 %11, label %12, label %41
 
 12:
-  %13 = getelementptr inbounds i8, ptr %0, i64 96
+  %13 = getelementptr inbounds i8, ptr %0, i64 88
   %14 = load ptr, ptr %13, align 8
-  %15 = getelementptr inbounds i8, ptr %0, i64 88
+  %15 = getelementptr inbounds i8, ptr %0, i64 80
   %16 = load ptr, ptr %15, align 8
   br label %110
 
 17:
-  %18 = getelementptr inbounds i8, ptr %0, i64 104
+  %18 = getelementptr inbounds i8, ptr %0, i64 96
   %19 = load ptr, ptr %18, align 8
   br label %34
 
@@ -3601,7 +3601,7 @@ define void @exclude_boxes(ptr noundef %0, ptr nocapture noundef readonly %1, pt
   br i1 %48, label %49, label %100
 
 49:
-  %50 = getelementptr inbounds i8, ptr %0, i64 40
+  %50 = getelementptr inbounds i8, ptr %0, i64 32
   %51 = load ptr, ptr %50, align 8
   %52 = fmul contract <8 x double> %42, %42
   br label %71
@@ -3677,13 +3677,13 @@ define void @exclude_boxes(ptr noundef %0, ptr nocapture noundef readonly %1, pt
   br i1 %101, label %102, label %350
 
 102:
-  %103 = getelementptr inbounds i8, ptr %0, i64 40
+  %103 = getelementptr inbounds i8, ptr %0, i64 32
   %104 = getelementptr inbounds i8, ptr %9, i64 8
   %105 = getelementptr inbounds i8, ptr %9, i64 1792
   %106 = getelementptr inbounds i8, ptr %9, i64 3328
   %107 = getelementptr inbounds i8, ptr %9, i64 101632
   %108 = getelementptr inbounds i8, ptr %9, i64 256
-  %109 = getelementptr inbounds i8, ptr %0, i64 56
+  %109 = getelementptr inbounds i8, ptr %0, i64 48
   br label %134
 
 110:
@@ -3725,7 +3725,7 @@ define void @exclude_boxes(ptr noundef %0, ptr nocapture noundef readonly %1, pt
   br label %150
 
 141:
-  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %9, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %6)
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %9, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %6)
   %142 = load i64, ptr %46, align 8
   %143 = icmp sgt i64 %142, 0
   br i1 %143, label %144, label %162
@@ -4036,7 +4036,7 @@ define void @evaluate_errors(ptr noundef %0, ptr nocapture noundef readonly %1, 
   br label %31
 
 27:
-  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %8, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %7)
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %8, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %7)
   br label %43
 
 28:
@@ -4166,7 +4166,7 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
 
 19:
   %20 = icmp sgt i64 %18, 0
-  br i1 %20, label %49, label %26
+  br i1 %20, label %50, label %26
 
 21:
   %22 = phi i64 [ 0, %3 ], [ %24, %21 ]
@@ -4177,952 +4177,1011 @@ define void @extend_paths(ptr noundef %0, ptr noundef readonly %1, ptr nocapture
   br i1 %25, label %19, label %21
 
 26:
-  %27 = getelementptr inbounds i8, ptr %2, i64 24
+  %27 = getelementptr inbounds i8, ptr %2, i64 32
   %28 = getelementptr inbounds i8, ptr %2, i64 8
-  %29 = getelementptr inbounds i8, ptr %2, i64 16
-  %30 = getelementptr inbounds i8, ptr %2, i64 64
-  %31 = getelementptr inbounds i8, ptr %2, i64 72
-  %32 = getelementptr inbounds i8, ptr %0, i64 112
-  %33 = getelementptr inbounds i8, ptr %0, i64 24
-  %34 = getelementptr inbounds i8, ptr %0, i64 88
-  %35 = getelementptr inbounds i8, ptr %0, i64 104
-  %36 = getelementptr inbounds i8, ptr %0, i64 8
-  %37 = getelementptr inbounds i8, ptr %0, i64 40
-  %38 = getelementptr inbounds i8, ptr %0, i64 16
-  %39 = getelementptr inbounds i8, ptr %0, i64 64
-  %40 = getelementptr inbounds i8, ptr %0, i64 72
-  %41 = getelementptr inbounds i8, ptr %0, i64 80
-  %42 = getelementptr inbounds i8, ptr %15, i64 1792
-  %43 = getelementptr inbounds i8, ptr %15, i64 3328
-  %44 = getelementptr inbounds i8, ptr %2, i64 48
-  %45 = icmp eq ptr %1, null
-  %46 = getelementptr inbounds i8, ptr %2, i64 40
-  %47 = getelementptr inbounds i8, ptr %2, i64 56
-  %48 = getelementptr inbounds i8, ptr %2, i64 32
+  %29 = getelementptr inbounds i8, ptr %2, i64 72
+  %30 = getelementptr inbounds i8, ptr %2, i64 80
+  %31 = getelementptr inbounds i8, ptr %0, i64 64
+  %32 = getelementptr inbounds i8, ptr %0, i64 72
+  %33 = getelementptr inbounds i8, ptr %0, i64 16
+  %34 = getelementptr inbounds i8, ptr %15, i64 256
+  %35 = getelementptr inbounds i8, ptr %0, i64 48
+  %36 = getelementptr inbounds i8, ptr %2, i64 16
+  %37 = getelementptr inbounds i8, ptr %2, i64 24
+  %38 = getelementptr inbounds i8, ptr %0, i64 80
+  %39 = getelementptr inbounds i8, ptr %0, i64 96
+  %40 = getelementptr inbounds i8, ptr %0, i64 8
+  %41 = getelementptr inbounds i8, ptr %0, i64 32
+  %42 = getelementptr inbounds i8, ptr %0, i64 56
+  %43 = getelementptr inbounds i8, ptr %15, i64 1792
+  %44 = getelementptr inbounds i8, ptr %15, i64 3328
+  %45 = getelementptr inbounds i8, ptr %2, i64 56
+  %46 = icmp eq ptr %1, null
+  %47 = getelementptr inbounds i8, ptr %2, i64 48
+  %48 = getelementptr inbounds i8, ptr %2, i64 64
+  %49 = getelementptr inbounds i8, ptr %2, i64 40
   br label %56
 
-49:
-  %50 = phi i64 [ %53, %49 ], [ 0, %19 ]
-  %51 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %50
-  store <8 x double> zeroinitializer, ptr %51, align 64
-  %52 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %50
+50:
+  %51 = phi i64 [ %54, %50 ], [ 0, %19 ]
+  %52 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %51
   store <8 x double> zeroinitializer, ptr %52, align 64
-  %53 = add nuw nsw i64 %50, 1
-  %54 = icmp eq i64 %53, %18
-  br i1 %54, label %26, label %49
-
-55:
-  br label %56
+  %53 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %51
+  store <8 x double> zeroinitializer, ptr %53, align 64
+  %54 = add nuw nsw i64 %51, 1
+  %55 = icmp eq i64 %54, %18
+  br i1 %55, label %26, label %50
 
 56:
-  %57 = phi <8 x i64> [ %63, %55 ], [ zeroinitializer, %26 ]
-  %58 = phi i64 [ %722, %55 ], [ 0, %26 ]
-  %59 = phi i64 [ %65, %55 ], [ 0, %26 ]
-  %60 = load i64, ptr %27, align 8
-  %61 = icmp slt i64 %59, %60
-  br i1 %61, label %68, label %62
+  %57 = phi <8 x i64> [ %160, %766 ], [ zeroinitializer, %26 ]
+  %58 = phi i64 [ %763, %766 ], [ 0, %26 ]
+  %59 = phi i64 [ %159, %766 ], [ 0, %26 ]
+  %60 = icmp slt i64 %58, 8
+  %61 = load i64, ptr %27, align 8
+  %62 = icmp slt i64 %59, %61
+  %63 = and i1 %60, %62
+  br i1 %62, label %68, label %66
 
-62:
-  %63 = phi <8 x i64> [ %57, %56 ], [ %114, %112 ]
-  %64 = phi i64 [ %58, %56 ], [ %115, %112 ]
-  %65 = phi i64 [ %59, %56 ], [ %116, %112 ]
-  %66 = icmp eq i64 %64, 0
-  br i1 %66, label %725, label %67
+64:
+  %65 = icmp eq i64 %107, 0
+  br i1 %65, label %767, label %113
 
-67:
-  br i1 %20, label %235, label %121
+66:
+  %67 = icmp eq i64 %58, 0
+  br i1 %67, label %767, label %157
 
 68:
-  %69 = phi i64 [ %113, %112 ], [ %60, %56 ]
-  %70 = phi i64 [ %116, %112 ], [ %59, %56 ]
-  %71 = phi i64 [ %115, %112 ], [ %58, %56 ]
-  %72 = phi <8 x i64> [ %114, %112 ], [ %57, %56 ]
-  %73 = phi i64 [ %117, %112 ], [ 0, %56 ]
-  %74 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %73
-  %75 = load i64, ptr %74, align 8
-  %76 = icmp sgt i64 %75, -1
-  br i1 %76, label %112, label %77
+  %69 = phi i64 [ %106, %105 ], [ %61, %56 ]
+  %70 = phi i64 [ %108, %105 ], [ %59, %56 ]
+  %71 = phi i64 [ %107, %105 ], [ %58, %56 ]
+  %72 = phi i64 [ %109, %105 ], [ 0, %56 ]
+  %73 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %72
+  %74 = load i64, ptr %73, align 8
+  %75 = icmp sgt i64 %74, -1
+  br i1 %75, label %105, label %76
 
-77:
-  %78 = add nsw i64 %70, 1
-  store i64 %70, ptr %74, align 8
-  %79 = add nsw i64 %71, 1
-  br i1 %20, label %80, label %86
+76:
+  %77 = add nsw i64 %70, 1
+  store i64 %70, ptr %73, align 8
+  %78 = add nsw i64 %71, 1
+  br i1 %20, label %79, label %85
 
-80:
-  %81 = load ptr, ptr %2, align 8
-  %82 = mul nsw i64 %70, %18
-  %83 = getelementptr double, ptr %81, i64 %82
-  %84 = load ptr, ptr %28, align 8
-  %85 = getelementptr double, ptr %84, i64 %82
-  br label %98
+79:
+  %80 = load ptr, ptr %2, align 8
+  %81 = mul nsw i64 %70, %18
+  %82 = getelementptr double, ptr %80, i64 %81
+  %83 = load ptr, ptr %28, align 8
+  %84 = getelementptr double, ptr %83, i64 %81
+  br label %91
 
-86:
-  %87 = load ptr, ptr %29, align 8
-  %88 = getelementptr inbounds i8, ptr %87, i64 %70
-  %89 = load i8, ptr %88, align 1
-  %90 = icmp ne i8 %89, 0
-  %91 = sext i1 %90 to i64
-  %92 = insertelement <8 x i64> %72, i64 %91, i64 %73
-  %93 = load ptr, ptr %30, align 8
-  %94 = getelementptr inbounds i64, ptr %93, i64 %70
-  store i64 0, ptr %94, align 8
-  %95 = load ptr, ptr %31, align 8
-  %96 = getelementptr inbounds i8, ptr %95, i64 %70
-  store i8 0, ptr %96, align 1
-  %97 = load i64, ptr %27, align 8
-  br label %112
+85:
+  %86 = load ptr, ptr %29, align 8
+  %87 = getelementptr inbounds i64, ptr %86, i64 %70
+  store i64 0, ptr %87, align 8
+  %88 = load ptr, ptr %30, align 8
+  %89 = getelementptr inbounds i8, ptr %88, i64 %70
+  store i8 0, ptr %89, align 1
+  %90 = load i64, ptr %27, align 8
+  br label %105
 
-98:
-  %99 = phi i64 [ 0, %80 ], [ %110, %98 ]
-  %100 = getelementptr double, ptr %83, i64 %99
-  %101 = load double, ptr %100, align 8
-  %102 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %99
-  %103 = load <8 x double>, ptr %102, align 64
-  %104 = insertelement <8 x double> %103, double %101, i64 %73
-  store <8 x double> %104, ptr %102, align 64
-  %105 = getelementptr double, ptr %85, i64 %99
-  %106 = load double, ptr %105, align 8
-  %107 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %99
-  %108 = load <8 x double>, ptr %107, align 64
-  %109 = insertelement <8 x double> %108, double %106, i64 %73
-  store <8 x double> %109, ptr %107, align 64
-  %110 = add nuw nsw i64 %99, 1
-  %111 = icmp eq i64 %110, %18
-  br i1 %111, label %86, label %98
+91:
+  %92 = phi i64 [ 0, %79 ], [ %103, %91 ]
+  %93 = getelementptr double, ptr %82, i64 %92
+  %94 = load double, ptr %93, align 8
+  %95 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %92
+  %96 = load <8 x double>, ptr %95, align 64
+  %97 = insertelement <8 x double> %96, double %94, i64 %72
+  store <8 x double> %97, ptr %95, align 64
+  %98 = getelementptr double, ptr %84, i64 %92
+  %99 = load double, ptr %98, align 8
+  %100 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %92
+  %101 = load <8 x double>, ptr %100, align 64
+  %102 = insertelement <8 x double> %101, double %99, i64 %72
+  store <8 x double> %102, ptr %100, align 64
+  %103 = add nuw nsw i64 %92, 1
+  %104 = icmp eq i64 %103, %18
+  br i1 %104, label %85, label %91
 
-112:
-  %113 = phi i64 [ %69, %68 ], [ %97, %86 ]
-  %114 = phi <8 x i64> [ %72, %68 ], [ %92, %86 ]
-  %115 = phi i64 [ %71, %68 ], [ %79, %86 ]
-  %116 = phi i64 [ %70, %68 ], [ %78, %86 ]
-  %117 = add nuw nsw i64 %73, 1
-  %118 = icmp ult i64 %73, 7
-  %119 = icmp slt i64 %116, %113
-  %120 = select i1 %118, i1 %119, i1 false
-  br i1 %120, label %68, label %62
+105:
+  %106 = phi i64 [ %69, %68 ], [ %90, %85 ]
+  %107 = phi i64 [ %71, %68 ], [ %78, %85 ]
+  %108 = phi i64 [ %70, %68 ], [ %77, %85 ]
+  %109 = add nuw nsw i64 %72, 1
+  %110 = icmp ult i64 %72, 7
+  %111 = icmp slt i64 %108, %106
+  %112 = select i1 %110, i1 %111, i1 false
+  br i1 %112, label %68, label %64
 
-121:
-  %122 = load i64, ptr %0, align 8
-  %123 = icmp sgt i64 %122, 0
-  br i1 %123, label %124, label %167
+113:
+  br i1 %63, label %114, label %157
+
+114:
+  call void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %15, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %9)
+  br i1 %20, label %115, label %118
+
+115:
+  %116 = load ptr, ptr %31, align 8
+  %117 = load ptr, ptr %32, align 8
+  br label %124
+
+118:
+  %119 = phi <8 x i64> [ <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, %114 ], [ %140, %124 ]
+  %120 = load i64, ptr %33, align 8
+  %121 = icmp sgt i64 %120, 0
+  br i1 %121, label %122, label %157
+
+122:
+  %123 = load ptr, ptr %35, align 8
+  br label %143
 
 124:
-  %125 = load ptr, ptr %32, align 8
-  br label %130
+  %125 = phi <8 x i64> [ <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, %115 ], [ %140, %124 ]
+  %126 = phi i64 [ 0, %115 ], [ %141, %124 ]
+  %127 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %126
+  %128 = load <8 x double>, ptr %127, align 64
+  %129 = getelementptr inbounds double, ptr %116, i64 %126
+  %130 = load double, ptr %129, align 8
+  %131 = insertelement <8 x double> poison, double %130, i64 0
+  %132 = shufflevector <8 x double> %131, <8 x double> poison, <8 x i32> zeroinitializer
+  %133 = fcmp contract oge <8 x double> %128, %132
+  %134 = getelementptr inbounds double, ptr %117, i64 %126
+  %135 = load double, ptr %134, align 8
+  %136 = insertelement <8 x double> poison, double %135, i64 0
+  %137 = shufflevector <8 x double> %136, <8 x double> poison, <8 x i32> zeroinitializer
+  %138 = fcmp contract ole <8 x double> %128, %137
+  %139 = and <8 x i1> %138, %133
+  %140 = select <8 x i1> %139, <8 x i64> %125, <8 x i64> zeroinitializer
+  %141 = add nuw nsw i64 %126, 1
+  %142 = icmp eq i64 %141, %18
+  br i1 %142, label %118, label %124
 
-126:
-  %127 = load i64, ptr %33, align 8
-  %128 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %143)
-  %129 = load ptr, ptr %34, align 8
-  br label %151
+143:
+  %144 = phi <8 x i64> [ %119, %122 ], [ %154, %143 ]
+  %145 = phi i64 [ 0, %122 ], [ %155, %143 ]
+  %146 = getelementptr inbounds [24 x <8 x double>], ptr %34, i64 0, i64 %145
+  %147 = load <8 x double>, ptr %146, align 64
+  %148 = getelementptr inbounds double, ptr %123, i64 %145
+  %149 = load double, ptr %148, align 8
+  %150 = fadd contract double %149, 1.000000e-09
+  %151 = insertelement <8 x double> poison, double %150, i64 0
+  %152 = shufflevector <8 x double> %151, <8 x double> poison, <8 x i32> zeroinitializer
+  %153 = fcmp contract ole <8 x double> %147, %152
+  %154 = select <8 x i1> %153, <8 x i64> %144, <8 x i64> zeroinitializer
+  %155 = add nuw nsw i64 %145, 1
+  %156 = icmp eq i64 %155, %120
+  br i1 %156, label %157, label %143
 
-130:
-  %131 = phi <8 x double> [ zeroinitializer, %124 ], [ %143, %130 ]
-  %132 = phi i64 [ 0, %124 ], [ %146, %130 ]
-  %133 = phi <8 x double> [ zeroinitializer, %124 ], [ %145, %130 ]
-  %134 = getelementptr inbounds <8 x double>, ptr %10, i64 %132
-  %135 = load <8 x double>, ptr %134, align 64
-  %136 = getelementptr inbounds double, ptr %125, i64 %132
-  %137 = load double, ptr %136, align 8
-  %138 = insertelement <8 x double> poison, double %137, i64 0
-  %139 = shufflevector <8 x double> %138, <8 x double> poison, <8 x i32> zeroinitializer
-  %140 = fmul contract <8 x double> %135, %139
-  %141 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %140)
-  %142 = fmul contract <8 x double> %140, %140
-  %143 = fadd contract <8 x double> %131, %142
-  %144 = fcmp contract ogt <8 x double> %133, %141
-  %145 = select contract <8 x i1> %144, <8 x double> %133, <8 x double> %141
-  %146 = add nuw nsw i64 %132, 1
-  %147 = icmp eq i64 %146, %122
-  br i1 %147, label %126, label %130
+157:
+  %158 = phi i64 [ %107, %113 ], [ %107, %118 ], [ %58, %66 ], [ %107, %143 ]
+  %159 = phi i64 [ %108, %113 ], [ %108, %118 ], [ %59, %66 ], [ %108, %143 ]
+  %160 = phi <8 x i64> [ %57, %113 ], [ %119, %118 ], [ %57, %66 ], [ %154, %143 ]
+  br i1 %20, label %275, label %163
 
-148:
-  %149 = icmp eq i64 %127, 0
-  %150 = load ptr, ptr %35, align 8
-  br label %176
+161:
+  %162 = load ptr, ptr %36, align 8
+  br label %174
 
-151:
-  %152 = phi <8 x double> [ zeroinitializer, %126 ], [ %162, %151 ]
-  %153 = phi i64 [ 0, %126 ], [ %163, %151 ]
-  %154 = getelementptr inbounds <8 x double>, ptr %10, i64 %153
-  %155 = load <8 x double>, ptr %154, align 64
-  %156 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %155)
-  %157 = getelementptr inbounds double, ptr %129, i64 %153
-  %158 = load double, ptr %157, align 8
-  %159 = insertelement <8 x double> poison, double %158, i64 0
-  %160 = shufflevector <8 x double> %159, <8 x double> poison, <8 x i32> zeroinitializer
-  %161 = fmul contract <8 x double> %156, %160
-  %162 = fadd contract <8 x double> %152, %161
-  %163 = add nuw nsw i64 %153, 1
-  %164 = icmp eq i64 %163, %122
-  br i1 %164, label %148, label %151
+163:
+  %164 = phi <8 x double> [ zeroinitializer, %157 ], [ %189, %174 ]
+  %165 = phi <8 x double> [ zeroinitializer, %157 ], [ %187, %174 ]
+  %166 = load i64, ptr %37, align 8
+  %167 = icmp eq i64 %166, 0
+  %168 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %165)
+  %169 = select contract i1 %167, <8 x double> %168, <8 x double> %164
+  %170 = load i64, ptr %0, align 8
+  %171 = icmp sgt i64 %170, 0
+  br i1 %171, label %172, label %208
 
-165:
-  %166 = select contract i1 %149, <8 x double> %128, <8 x double> %145
-  br label %167
+172:
+  %173 = load ptr, ptr %38, align 8
+  br label %194
 
-167:
-  %168 = phi <8 x double> [ zeroinitializer, %121 ], [ %162, %165 ]
-  %169 = phi <8 x double> [ zeroinitializer, %121 ], [ %166, %165 ]
-  %170 = phi <8 x double> [ zeroinitializer, %121 ], [ %198, %165 ]
-  %171 = load i64, ptr %36, align 8
-  %172 = icmp sgt i64 %171, 0
-  br i1 %172, label %173, label %201
+174:
+  %175 = phi <8 x double> [ zeroinitializer, %161 ], [ %187, %174 ]
+  %176 = phi i64 [ 0, %161 ], [ %190, %174 ]
+  %177 = phi <8 x double> [ zeroinitializer, %161 ], [ %189, %174 ]
+  %178 = getelementptr inbounds <8 x double>, ptr %10, i64 %176
+  %179 = load <8 x double>, ptr %178, align 64
+  %180 = getelementptr inbounds double, ptr %162, i64 %176
+  %181 = load double, ptr %180, align 8
+  %182 = insertelement <8 x double> poison, double %181, i64 0
+  %183 = shufflevector <8 x double> %182, <8 x double> poison, <8 x i32> zeroinitializer
+  %184 = fmul contract <8 x double> %179, %183
+  %185 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %184)
+  %186 = fmul contract <8 x double> %184, %184
+  %187 = fadd contract <8 x double> %175, %186
+  %188 = fcmp contract ogt <8 x double> %177, %185
+  %189 = select contract <8 x i1> %188, <8 x double> %177, <8 x double> %185
+  %190 = add nuw nsw i64 %176, 1
+  %191 = icmp eq i64 %190, %18
+  br i1 %191, label %163, label %174
 
-173:
-  %174 = load ptr, ptr %37, align 8
-  %175 = fmul contract <8 x double> %168, %168
-  br label %206
+192:
+  %193 = load ptr, ptr %39, align 8
+  br label %216
 
-176:
-  %177 = phi i64 [ 0, %148 ], [ %184, %183 ]
-  %178 = phi <8 x double> [ zeroinitializer, %148 ], [ %198, %183 ]
-  %179 = getelementptr inbounds <8 x double>, ptr %10, i64 %177
-  %180 = load <8 x double>, ptr %179, align 64
-  %181 = mul nuw nsw i64 %177, %122
-  %182 = getelementptr double, ptr %150, i64 %181
-  br label %186
+194:
+  %195 = phi <8 x double> [ zeroinitializer, %172 ], [ %205, %194 ]
+  %196 = phi i64 [ 0, %172 ], [ %206, %194 ]
+  %197 = getelementptr inbounds <8 x double>, ptr %10, i64 %196
+  %198 = load <8 x double>, ptr %197, align 64
+  %199 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %198)
+  %200 = getelementptr inbounds double, ptr %173, i64 %196
+  %201 = load double, ptr %200, align 8
+  %202 = insertelement <8 x double> poison, double %201, i64 0
+  %203 = shufflevector <8 x double> %202, <8 x double> poison, <8 x i32> zeroinitializer
+  %204 = fmul contract <8 x double> %199, %203
+  %205 = fadd contract <8 x double> %195, %204
+  %206 = add nuw nsw i64 %196, 1
+  %207 = icmp eq i64 %206, %170
+  br i1 %207, label %192, label %194
 
-183:
-  %184 = add nuw nsw i64 %177, 1
-  %185 = icmp eq i64 %184, %122
-  br i1 %185, label %165, label %176
+208:
+  %209 = phi <8 x double> [ zeroinitializer, %163 ], [ %205, %223 ]
+  %210 = phi <8 x double> [ zeroinitializer, %163 ], [ %238, %223 ]
+  %211 = load i64, ptr %40, align 8
+  %212 = icmp sgt i64 %211, 0
+  br i1 %212, label %213, label %241
 
-186:
-  %187 = phi i64 [ 0, %176 ], [ %199, %186 ]
-  %188 = phi <8 x double> [ %178, %176 ], [ %198, %186 ]
-  %189 = getelementptr inbounds <8 x double>, ptr %10, i64 %187
-  %190 = load <8 x double>, ptr %189, align 64
-  %191 = fmul contract <8 x double> %180, %190
-  %192 = call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %191)
-  %193 = getelementptr double, ptr %182, i64 %187
-  %194 = load double, ptr %193, align 8
-  %195 = insertelement <8 x double> poison, double %194, i64 0
-  %196 = shufflevector <8 x double> %195, <8 x double> poison, <8 x i32> zeroinitializer
-  %197 = fmul contract <8 x double> %192, %196
-  %198 = fadd contract <8 x double> %188, %197
-  %199 = add nuw nsw i64 %187, 1
-  %200 = icmp eq i64 %199, %122
-  br i1 %200, label %183, label %186
+213:
+  %214 = load ptr, ptr %41, align 8
+  %215 = fmul contract <8 x double> %209, %209
+  br label %246
 
-201:
-  %202 = load i64, ptr %38, align 8
-  %203 = icmp sgt i64 %202, 0
-  br i1 %203, label %204, label %245
+216:
+  %217 = phi i64 [ 0, %192 ], [ %224, %223 ]
+  %218 = phi <8 x double> [ zeroinitializer, %192 ], [ %238, %223 ]
+  %219 = getelementptr inbounds <8 x double>, ptr %10, i64 %217
+  %220 = load <8 x double>, ptr %219, align 64
+  %221 = mul nuw nsw i64 %217, %170
+  %222 = getelementptr double, ptr %193, i64 %221
+  br label %226
 
-204:
-  %205 = load ptr, ptr %39, align 8
-  br label %250
+223:
+  %224 = add nuw nsw i64 %217, 1
+  %225 = icmp eq i64 %224, %170
+  br i1 %225, label %208, label %216
 
-206:
-  %207 = phi i64 [ 0, %173 ], [ %233, %231 ]
-  %208 = phi i64 [ 0, %173 ], [ %232, %231 ]
-  %209 = getelementptr inbounds %struct.Constraint, ptr %174, i64 %207
-  %210 = load i64, ptr %209, align 8
-  %211 = icmp eq i64 %210, 0
-  br i1 %211, label %215, label %212
+226:
+  %227 = phi i64 [ 0, %216 ], [ %239, %226 ]
+  %228 = phi <8 x double> [ %218, %216 ], [ %238, %226 ]
+  %229 = getelementptr inbounds <8 x double>, ptr %10, i64 %227
+  %230 = load <8 x double>, ptr %229, align 64
+  %231 = fmul contract <8 x double> %220, %230
+  %232 = call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %231)
+  %233 = getelementptr double, ptr %222, i64 %227
+  %234 = load double, ptr %233, align 8
+  %235 = insertelement <8 x double> poison, double %234, i64 0
+  %236 = shufflevector <8 x double> %235, <8 x double> poison, <8 x i32> zeroinitializer
+  %237 = fmul contract <8 x double> %232, %236
+  %238 = fadd contract <8 x double> %228, %237
+  %239 = add nuw nsw i64 %227, 1
+  %240 = icmp eq i64 %239, %170
+  br i1 %240, label %223, label %226
 
-212:
-  %213 = add nsw i64 %208, 1
-  %214 = getelementptr inbounds <8 x double>, ptr %13, i64 %208
-  store <8 x double> %170, ptr %214, align 64
-  br label %215
+241:
+  %242 = load i64, ptr %33, align 8
+  %243 = icmp sgt i64 %242, 0
+  br i1 %243, label %244, label %285
 
-215:
-  %216 = phi i64 [ %213, %212 ], [ %208, %206 ]
-  %217 = getelementptr inbounds i8, ptr %209, i64 8
-  %218 = load i64, ptr %217, align 8
-  %219 = icmp eq i64 %218, 0
-  br i1 %219, label %220, label %224
+244:
+  %245 = load ptr, ptr %42, align 8
+  br label %290
 
-220:
-  %221 = getelementptr inbounds i8, ptr %209, i64 16
-  %222 = load i64, ptr %221, align 8
-  %223 = icmp eq i64 %222, 0
-  br i1 %223, label %231, label %224
+246:
+  %247 = phi i64 [ 0, %213 ], [ %273, %271 ]
+  %248 = phi i64 [ 0, %213 ], [ %272, %271 ]
+  %249 = getelementptr inbounds %struct.Constraint, ptr %214, i64 %247
+  %250 = load i64, ptr %249, align 8
+  %251 = icmp eq i64 %250, 0
+  br i1 %251, label %255, label %252
 
-224:
-  %225 = phi double [ 1.000000e+00, %220 ], [ 0x3FF6A09E667F3BCD, %215 ]
-  %226 = insertelement <8 x double> poison, double %225, i64 0
-  %227 = shufflevector <8 x double> %226, <8 x double> poison, <8 x i32> zeroinitializer
-  %228 = fmul contract <8 x double> %175, %227
-  %229 = add nsw i64 %216, 1
-  %230 = getelementptr inbounds <8 x double>, ptr %13, i64 %216
-  store <8 x double> %228, ptr %230, align 64
-  br label %231
+252:
+  %253 = add nsw i64 %248, 1
+  %254 = getelementptr inbounds <8 x double>, ptr %13, i64 %248
+  store <8 x double> %210, ptr %254, align 64
+  br label %255
 
-231:
-  %232 = phi i64 [ %229, %224 ], [ %216, %220 ]
-  %233 = add nuw nsw i64 %207, 1
-  %234 = icmp eq i64 %233, %171
-  br i1 %234, label %201, label %206
+255:
+  %256 = phi i64 [ %253, %252 ], [ %248, %246 ]
+  %257 = getelementptr inbounds i8, ptr %249, i64 8
+  %258 = load i64, ptr %257, align 8
+  %259 = icmp eq i64 %258, 0
+  br i1 %259, label %260, label %264
 
-235:
-  %236 = phi i64 [ %243, %235 ], [ 0, %67 ]
-  %237 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %236
-  %238 = load <8 x double>, ptr %237, align 64
-  %239 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %236
-  %240 = load <8 x double>, ptr %239, align 64
-  %241 = fsub contract <8 x double> %238, %240
-  %242 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %236
-  store <8 x double> %241, ptr %242, align 64
-  %243 = add nuw nsw i64 %236, 1
-  %244 = icmp eq i64 %243, %18
-  br i1 %244, label %121, label %235
+260:
+  %261 = getelementptr inbounds i8, ptr %249, i64 16
+  %262 = load i64, ptr %261, align 8
+  %263 = icmp eq i64 %262, 0
+  br i1 %263, label %271, label %264
 
-245:
-  %246 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %201 ], [ %265, %250 ]
-  br i1 %20, label %274, label %247
+264:
+  %265 = phi double [ 1.000000e+00, %260 ], [ 0x3FF6A09E667F3BCD, %255 ]
+  %266 = insertelement <8 x double> poison, double %265, i64 0
+  %267 = shufflevector <8 x double> %266, <8 x double> poison, <8 x i32> zeroinitializer
+  %268 = fmul contract <8 x double> %215, %267
+  %269 = add nsw i64 %256, 1
+  %270 = getelementptr inbounds <8 x double>, ptr %13, i64 %256
+  store <8 x double> %268, ptr %270, align 64
+  br label %271
 
-247:
-  %248 = fcmp contract oeq <8 x double> %246, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
-  %249 = select <8 x i1> %248, <8 x i64> %63, <8 x i64> zeroinitializer
-  br label %282
+271:
+  %272 = phi i64 [ %269, %264 ], [ %256, %260 ]
+  %273 = add nuw nsw i64 %247, 1
+  %274 = icmp eq i64 %273, %211
+  br i1 %274, label %241, label %246
 
-250:
-  %251 = phi i64 [ 0, %204 ], [ %266, %250 ]
-  %252 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %204 ], [ %265, %250 ]
-  %253 = getelementptr inbounds double, ptr %205, i64 %251
-  %254 = load double, ptr %253, align 8
-  %255 = fmul contract double %254, 4.000000e+00
-  %256 = insertelement <8 x double> poison, double %255, i64 0
-  %257 = shufflevector <8 x double> %256, <8 x double> poison, <8 x i32> zeroinitializer
-  %258 = getelementptr inbounds [24 x <8 x double>], ptr %13, i64 0, i64 %251
-  %259 = load <8 x double>, ptr %258, align 64
-  %260 = fcmp contract ogt <8 x double> %259, <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
-  %261 = select contract <8 x i1> %260, <8 x double> %259, <8 x double> <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
-  %262 = fdiv contract <8 x double> %257, %261
-  %263 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %262)
-  %264 = fcmp contract olt <8 x double> %252, %263
-  %265 = select contract <8 x i1> %264, <8 x double> %252, <8 x double> %263
-  %266 = add nuw nsw i64 %251, 1
-  %267 = icmp eq i64 %266, %202
-  br i1 %267, label %245, label %250
-
-268:
-  %269 = fcmp contract oeq <8 x double> %246, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
-  %270 = select <8 x i1> %269, <8 x i64> %63, <8 x i64> zeroinitializer
-  %271 = load ptr, ptr %40, align 8
-  %272 = load ptr, ptr %41, align 8
-  %273 = icmp eq <8 x i64> %270, zeroinitializer
-  br label %569
-
-274:
-  %275 = phi i64 [ %280, %274 ], [ 0, %245 ]
-  %276 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %275
-  %277 = load <8 x double>, ptr %276, align 64
-  %278 = fmul contract <8 x double> %246, %277
-  %279 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %275
-  store <8 x double> %278, ptr %279, align 64
-  %280 = add nuw nsw i64 %275, 1
-  %281 = icmp eq i64 %280, %18
-  br i1 %281, label %268, label %274
-
-282:
-  %283 = phi <8 x i64> [ %249, %247 ], [ %270, %569 ]
-  %284 = xor <8 x i64> %283, <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>
-  br label %285
+275:
+  %276 = phi i64 [ %283, %275 ], [ 0, %157 ]
+  %277 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %276
+  %278 = load <8 x double>, ptr %277, align 64
+  %279 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %276
+  %280 = load <8 x double>, ptr %279, align 64
+  %281 = fsub contract <8 x double> %278, %280
+  %282 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %276
+  store <8 x double> %281, ptr %282, align 64
+  %283 = add nuw nsw i64 %276, 1
+  %284 = icmp eq i64 %283, %18
+  br i1 %284, label %161, label %275
 
 285:
-  %286 = phi i64 [ 0, %282 ], [ %543, %542 ]
-  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %15, ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %12)
-  %287 = load i64, ptr %15, align 64
-  %288 = icmp sgt i64 %287, 0
-  br i1 %288, label %303, label %289
+  %286 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %241 ], [ %305, %290 ]
+  br i1 %20, label %314, label %287
 
-289:
-  %290 = phi <8 x double> [ zeroinitializer, %285 ], [ %310, %303 ]
-  %291 = fcmp contract ogt <8 x double> %290, <double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08>
-  %292 = select <8 x i1> %291, <8 x i64> %284, <8 x i64> zeroinitializer
-  %293 = icmp eq i64 %286, 12
-  %294 = icmp ne <8 x i64> %292, zeroinitializer
-  %295 = bitcast <8 x i1> %294 to i8
-  %296 = icmp eq i8 %295, 0
-  %297 = select i1 %293, i1 true, i1 %296
-  %298 = load i64, ptr %0, align 8
-  br i1 %297, label %299, label %313
+287:
+  %288 = fcmp contract oeq <8 x double> %286, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %289 = select <8 x i1> %288, <8 x i64> %160, <8 x i64> zeroinitializer
+  br label %322
 
-299:
-  %300 = icmp sgt i64 %298, 0
-  br i1 %300, label %301, label %544
+290:
+  %291 = phi i64 [ 0, %244 ], [ %306, %290 ]
+  %292 = phi <8 x double> [ <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %244 ], [ %305, %290 ]
+  %293 = getelementptr inbounds double, ptr %245, i64 %291
+  %294 = load double, ptr %293, align 8
+  %295 = fmul contract double %294, 4.000000e+00
+  %296 = insertelement <8 x double> poison, double %295, i64 0
+  %297 = shufflevector <8 x double> %296, <8 x double> poison, <8 x i32> zeroinitializer
+  %298 = getelementptr inbounds [24 x <8 x double>], ptr %13, i64 0, i64 %291
+  %299 = load <8 x double>, ptr %298, align 64
+  %300 = fcmp contract ogt <8 x double> %299, <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
+  %301 = select contract <8 x i1> %300, <8 x double> %299, <8 x double> <double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300, double 1.000000e-300>
+  %302 = fdiv contract <8 x double> %297, %301
+  %303 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %302)
+  %304 = fcmp contract olt <8 x double> %292, %303
+  %305 = select contract <8 x i1> %304, <8 x double> %292, <8 x double> %303
+  %306 = add nuw nsw i64 %291, 1
+  %307 = icmp eq i64 %306, %242
+  br i1 %307, label %285, label %290
 
-301:
-  %302 = load ptr, ptr %32, align 8
-  br label %551
+308:
+  %309 = fcmp contract oeq <8 x double> %286, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %310 = select <8 x i1> %309, <8 x i64> %160, <8 x i64> zeroinitializer
+  %311 = load ptr, ptr %31, align 8
+  %312 = load ptr, ptr %32, align 8
+  %313 = icmp eq <8 x i64> %310, zeroinitializer
+  br label %607
 
-303:
-  %304 = phi i64 [ %311, %303 ], [ 0, %285 ]
-  %305 = phi <8 x double> [ %310, %303 ], [ zeroinitializer, %285 ]
-  %306 = getelementptr inbounds [24 x <8 x double>], ptr %42, i64 0, i64 %304
-  %307 = load <8 x double>, ptr %306, align 64
-  %308 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %307)
-  %309 = fcmp contract ogt <8 x double> %305, %308
-  %310 = select contract <8 x i1> %309, <8 x double> %305, <8 x double> %308
-  %311 = add nuw nsw i64 %304, 1
-  %312 = icmp eq i64 %311, %287
-  br i1 %312, label %289, label %303
+314:
+  %315 = phi i64 [ %320, %314 ], [ 0, %285 ]
+  %316 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %315
+  %317 = load <8 x double>, ptr %316, align 64
+  %318 = fmul contract <8 x double> %286, %317
+  %319 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %315
+  store <8 x double> %318, ptr %319, align 64
+  %320 = add nuw nsw i64 %315, 1
+  %321 = icmp eq i64 %320, %18
+  br i1 %321, label %308, label %314
 
-313:
+322:
+  %323 = phi <8 x i64> [ %289, %287 ], [ %310, %607 ]
+  %324 = xor <8 x i64> %323, <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>
+  br label %325
+
+325:
+  %326 = phi i64 [ 0, %322 ], [ %585, %584 ]
+  call void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %15, ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %12)
+  %327 = load i64, ptr %15, align 64
+  %328 = icmp sgt i64 %327, 0
+  br i1 %328, label %344, label %329
+
+329:
+  %330 = phi <8 x double> [ zeroinitializer, %325 ], [ %351, %344 ]
+  %331 = fcmp contract ogt <8 x double> %330, <double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08, double 1.000000e-08>
+  %332 = select <8 x i1> %331, <8 x i64> %324, <8 x i64> zeroinitializer
+  %333 = icmp eq i64 %326, 12
+  %334 = icmp ne <8 x i64> %332, zeroinitializer
+  %335 = bitcast <8 x i1> %334 to i8
+  %336 = icmp eq i8 %335, 0
+  %337 = select i1 %333, i1 true, i1 %336
+  br i1 %337, label %338, label %354
+
+338:
+  br i1 %20, label %342, label %339
+
+339:
+  %340 = load i64, ptr %37, align 8
+  %341 = icmp eq i64 %340, 0
+  br label %636
+
+342:
+  %343 = load ptr, ptr %36, align 8
+  br label %589
+
+344:
+  %345 = phi i64 [ %352, %344 ], [ 0, %325 ]
+  %346 = phi <8 x double> [ %351, %344 ], [ zeroinitializer, %325 ]
+  %347 = getelementptr inbounds [24 x <8 x double>], ptr %43, i64 0, i64 %345
+  %348 = load <8 x double>, ptr %347, align 64
+  %349 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %348)
+  %350 = fcmp contract ogt <8 x double> %346, %349
+  %351 = select contract <8 x i1> %350, <8 x double> %346, <8 x double> %349
+  %352 = add nuw nsw i64 %345, 1
+  %353 = icmp eq i64 %352, %327
+  br i1 %353, label %329, label %344
+
+354:
+  %355 = load i64, ptr %0, align 8
   call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %4)
   call void @llvm.lifetime.start.p0(i64 4096, ptr nonnull %5)
   call void @llvm.lifetime.start.p0(i64 36864, ptr nonnull %6)
   call void @llvm.lifetime.start.p0(i64 1536, ptr nonnull %7)
-  %314 = icmp sgt i64 %298, 0
-  %315 = load ptr, ptr %40, align 8
-  %316 = load ptr, ptr %41, align 8
-  br i1 %314, label %317, label %330
+  %356 = icmp sgt i64 %355, 0
+  %357 = load ptr, ptr %31, align 8
+  %358 = load ptr, ptr %32, align 8
+  br i1 %356, label %359, label %372
 
-317:
-  %318 = phi i64 [ %328, %317 ], [ 0, %313 ]
-  %319 = getelementptr inbounds double, ptr %315, i64 %318
-  %320 = load double, ptr %319, align 8
-  %321 = getelementptr inbounds double, ptr %316, i64 %318
-  %322 = load double, ptr %321, align 8
-  %323 = fcmp contract olt double %320, %322
-  %324 = uitofp i1 %323 to double
-  %325 = insertelement <8 x double> poison, double %324, i64 0
-  %326 = shufflevector <8 x double> %325, <8 x double> poison, <8 x i32> zeroinitializer
-  %327 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %318
-  store <8 x double> %326, ptr %327, align 64
-  %328 = add nuw nsw i64 %318, 1
-  %329 = icmp eq i64 %328, %298
-  br i1 %329, label %330, label %317
+359:
+  %360 = phi i64 [ %370, %359 ], [ 0, %354 ]
+  %361 = getelementptr inbounds double, ptr %357, i64 %360
+  %362 = load double, ptr %361, align 8
+  %363 = getelementptr inbounds double, ptr %358, i64 %360
+  %364 = load double, ptr %363, align 8
+  %365 = fcmp contract olt double %362, %364
+  %366 = uitofp i1 %365 to double
+  %367 = insertelement <8 x double> poison, double %366, i64 0
+  %368 = shufflevector <8 x double> %367, <8 x double> poison, <8 x i32> zeroinitializer
+  %369 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %360
+  store <8 x double> %368, ptr %369, align 64
+  %370 = add nuw nsw i64 %360, 1
+  %371 = icmp eq i64 %370, %355
+  br i1 %371, label %372, label %359
 
-330:
-  br label %331
+372:
+  br label %373
 
-331:
-  %332 = phi i1 [ false, %450 ], [ true, %330 ]
-  br i1 %288, label %336, label %426
+373:
+  %374 = phi i1 [ false, %492 ], [ true, %372 ]
+  br i1 %328, label %378, label %468
 
-333:
-  %334 = fmul contract <8 x double> %352, <double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10>
-  %335 = fadd contract <8 x double> %334, <double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B>
-  br label %369
-
-336:
-  %337 = phi i64 [ %345, %343 ], [ 1, %331 ]
-  %338 = phi i64 [ %344, %343 ], [ 0, %331 ]
-  %339 = phi <8 x double> [ %352, %343 ], [ zeroinitializer, %331 ]
-  br label %340
-
-340:
-  %341 = phi i64 [ 0, %336 ], [ %353, %347 ]
-  %342 = phi <8 x double> [ %339, %336 ], [ %352, %347 ]
-  br i1 %314, label %355, label %347
-
-343:
-  %344 = add nuw nsw i64 %338, 1
-  %345 = add nuw i64 %337, 1
-  %346 = icmp eq i64 %344, %287
-  br i1 %346, label %333, label %336
-
-347:
-  %348 = phi <8 x double> [ zeroinitializer, %340 ], [ %366, %355 ]
-  %349 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %338, i64 %341
-  store <8 x double> %348, ptr %349, align 64
-  %350 = icmp eq i64 %338, %341
-  %351 = fadd contract <8 x double> %342, %348
-  %352 = select i1 %350, <8 x double> %351, <8 x double> %342
-  %353 = add nuw nsw i64 %341, 1
-  %354 = icmp eq i64 %353, %337
-  br i1 %354, label %343, label %340
-
-355:
-  %356 = phi i64 [ %367, %355 ], [ 0, %340 ]
-  %357 = phi <8 x double> [ %366, %355 ], [ zeroinitializer, %340 ]
-  %358 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %338, i64 %356
-  %359 = load <8 x double>, ptr %358, align 64
-  %360 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %341, i64 %356
-  %361 = load <8 x double>, ptr %360, align 64
-  %362 = fmul contract <8 x double> %359, %361
-  %363 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %356
-  %364 = load <8 x double>, ptr %363, align 64
-  %365 = fmul contract <8 x double> %362, %364
-  %366 = fadd contract <8 x double> %357, %365
-  %367 = add nuw nsw i64 %356, 1
-  %368 = icmp eq i64 %367, %298
-  br i1 %368, label %347, label %355
-
-369:
-  %370 = phi i64 [ 0, %333 ], [ %397, %389 ]
-  %371 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %370
-  %372 = load <8 x double>, ptr %371, align 64
-  %373 = fadd contract <8 x double> %335, %372
-  store <8 x double> %373, ptr %371, align 64
-  %374 = getelementptr inbounds [24 x <8 x double>], ptr %42, i64 0, i64 %370
-  %375 = load <8 x double>, ptr %374, align 64
-  %376 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %370
-  store <8 x double> %375, ptr %376, align 64
-  %377 = icmp eq i64 %370, 0
-  br i1 %377, label %389, label %378
+375:
+  %376 = fmul contract <8 x double> %394, <double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10, double 1.000000e-10>
+  %377 = fadd contract <8 x double> %376, <double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B, double 0x3D06849B86A12B9B>
+  br label %411
 
 378:
-  %379 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 0
-  br label %380
+  %379 = phi i64 [ %387, %385 ], [ 1, %373 ]
+  %380 = phi i64 [ %386, %385 ], [ 0, %373 ]
+  %381 = phi <8 x double> [ %394, %385 ], [ zeroinitializer, %373 ]
+  br label %382
 
-380:
-  %381 = phi <8 x double> [ %375, %378 ], [ %412, %399 ]
-  %382 = phi i64 [ 0, %378 ], [ %413, %399 ]
-  %383 = icmp eq i64 %382, 0
-  br i1 %383, label %384, label %386
+382:
+  %383 = phi i64 [ 0, %378 ], [ %395, %389 ]
+  %384 = phi <8 x double> [ %381, %378 ], [ %394, %389 ]
+  br i1 %356, label %397, label %389
 
-384:
-  %385 = load <8 x double>, ptr %379, align 64
-  br label %399
-
-386:
-  %387 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %382
-  %388 = load <8 x double>, ptr %387, align 64
-  br label %415
+385:
+  %386 = add nuw nsw i64 %380, 1
+  %387 = add nuw i64 %379, 1
+  %388 = icmp eq i64 %386, %327
+  br i1 %388, label %375, label %378
 
 389:
-  %390 = phi <8 x double> [ %375, %369 ], [ %412, %399 ]
-  %391 = phi <8 x double> [ %373, %369 ], [ %407, %399 ]
-  %392 = fcmp contract ogt <8 x double> %391, <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
-  %393 = select contract <8 x i1> %392, <8 x double> %391, <8 x double> <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
-  %394 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %393)
-  %395 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %394
-  store <8 x double> %395, ptr %371, align 64
-  %396 = fmul contract <8 x double> %390, %395
-  store <8 x double> %396, ptr %376, align 64
-  %397 = add nuw nsw i64 %370, 1
-  %398 = icmp eq i64 %397, %287
-  br i1 %398, label %427, label %369
+  %390 = phi <8 x double> [ zeroinitializer, %382 ], [ %408, %397 ]
+  %391 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %380, i64 %383
+  store <8 x double> %390, ptr %391, align 64
+  %392 = icmp eq i64 %380, %383
+  %393 = fadd contract <8 x double> %384, %390
+  %394 = select i1 %392, <8 x double> %393, <8 x double> %384
+  %395 = add nuw nsw i64 %383, 1
+  %396 = icmp eq i64 %395, %379
+  br i1 %396, label %385, label %382
 
-399:
-  %400 = phi <8 x double> [ %385, %384 ], [ %423, %415 ]
-  %401 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %382, i64 %382
-  %402 = load <8 x double>, ptr %401, align 64
-  %403 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %382
-  %404 = fmul contract <8 x double> %400, %402
-  store <8 x double> %404, ptr %403, align 64
-  %405 = fmul contract <8 x double> %404, %404
-  %406 = load <8 x double>, ptr %371, align 64
-  %407 = fsub contract <8 x double> %406, %405
-  store <8 x double> %407, ptr %371, align 64
-  %408 = load <8 x double>, ptr %403, align 64
-  %409 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %382
-  %410 = load <8 x double>, ptr %409, align 64
-  %411 = fmul contract <8 x double> %408, %410
-  %412 = fsub contract <8 x double> %381, %411
-  store <8 x double> %412, ptr %376, align 64
-  %413 = add nuw nsw i64 %382, 1
-  %414 = icmp eq i64 %413, %370
-  br i1 %414, label %389, label %380
+397:
+  %398 = phi i64 [ %409, %397 ], [ 0, %382 ]
+  %399 = phi <8 x double> [ %408, %397 ], [ zeroinitializer, %382 ]
+  %400 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %44, i64 0, i64 %380, i64 %398
+  %401 = load <8 x double>, ptr %400, align 64
+  %402 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %44, i64 0, i64 %383, i64 %398
+  %403 = load <8 x double>, ptr %402, align 64
+  %404 = fmul contract <8 x double> %401, %403
+  %405 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %398
+  %406 = load <8 x double>, ptr %405, align 64
+  %407 = fmul contract <8 x double> %404, %406
+  %408 = fadd contract <8 x double> %399, %407
+  %409 = add nuw nsw i64 %398, 1
+  %410 = icmp eq i64 %409, %355
+  br i1 %410, label %389, label %397
 
-415:
-  %416 = phi <8 x double> [ %388, %386 ], [ %423, %415 ]
-  %417 = phi i64 [ 0, %386 ], [ %424, %415 ]
-  %418 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %370, i64 %417
-  %419 = load <8 x double>, ptr %418, align 64
-  %420 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %382, i64 %417
-  %421 = load <8 x double>, ptr %420, align 64
-  %422 = fmul contract <8 x double> %419, %421
-  %423 = fsub contract <8 x double> %416, %422
-  store <8 x double> %423, ptr %387, align 64
-  %424 = add nuw nsw i64 %417, 1
-  %425 = icmp eq i64 %424, %382
-  br i1 %425, label %399, label %415
+411:
+  %412 = phi i64 [ 0, %375 ], [ %439, %431 ]
+  %413 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %412, i64 %412
+  %414 = load <8 x double>, ptr %413, align 64
+  %415 = fadd contract <8 x double> %377, %414
+  store <8 x double> %415, ptr %413, align 64
+  %416 = getelementptr inbounds [24 x <8 x double>], ptr %43, i64 0, i64 %412
+  %417 = load <8 x double>, ptr %416, align 64
+  %418 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %412
+  store <8 x double> %417, ptr %418, align 64
+  %419 = icmp eq i64 %412, 0
+  br i1 %419, label %431, label %420
+
+420:
+  %421 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %412, i64 0
+  br label %422
+
+422:
+  %423 = phi <8 x double> [ %417, %420 ], [ %454, %441 ]
+  %424 = phi i64 [ 0, %420 ], [ %455, %441 ]
+  %425 = icmp eq i64 %424, 0
+  br i1 %425, label %426, label %428
 
 426:
-  br i1 %314, label %455, label %542
+  %427 = load <8 x double>, ptr %421, align 64
+  br label %441
 
-427:
-  %428 = phi i64 [ %429, %433 ], [ %287, %389 ]
-  %429 = add nsw i64 %428, -1
-  %430 = icmp slt i64 %428, %287
-  %431 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %429
-  %432 = load <8 x double>, ptr %431, align 64
-  br i1 %430, label %439, label %433
+428:
+  %429 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %412, i64 %424
+  %430 = load <8 x double>, ptr %429, align 64
+  br label %457
 
-433:
-  %434 = phi <8 x double> [ %432, %427 ], [ %447, %439 ]
-  %435 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %429, i64 %429
-  %436 = load <8 x double>, ptr %435, align 64
-  %437 = fmul contract <8 x double> %434, %436
-  store <8 x double> %437, ptr %431, align 64
-  %438 = icmp sgt i64 %428, 1
-  br i1 %438, label %427, label %426
+431:
+  %432 = phi <8 x double> [ %417, %411 ], [ %454, %441 ]
+  %433 = phi <8 x double> [ %415, %411 ], [ %449, %441 ]
+  %434 = fcmp contract ogt <8 x double> %433, <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
+  %435 = select contract <8 x i1> %434, <8 x double> %433, <8 x double> <double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30, double 1.000000e-30>
+  %436 = call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %435)
+  %437 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %436
+  store <8 x double> %437, ptr %413, align 64
+  %438 = fmul contract <8 x double> %432, %437
+  store <8 x double> %438, ptr %418, align 64
+  %439 = add nuw nsw i64 %412, 1
+  %440 = icmp eq i64 %439, %327
+  br i1 %440, label %469, label %411
 
-439:
-  %440 = phi <8 x double> [ %447, %439 ], [ %432, %427 ]
-  %441 = phi i64 [ %448, %439 ], [ %428, %427 ]
-  %442 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %441, i64 %429
-  %443 = load <8 x double>, ptr %442, align 64
-  %444 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %441
-  %445 = load <8 x double>, ptr %444, align 64
-  %446 = fmul contract <8 x double> %443, %445
-  %447 = fsub contract <8 x double> %440, %446
-  store <8 x double> %447, ptr %431, align 64
-  %448 = add nuw nsw i64 %441, 1
-  %449 = icmp eq i64 %448, %287
-  br i1 %449, label %433, label %439
+441:
+  %442 = phi <8 x double> [ %427, %426 ], [ %465, %457 ]
+  %443 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %424, i64 %424
+  %444 = load <8 x double>, ptr %443, align 64
+  %445 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %412, i64 %424
+  %446 = fmul contract <8 x double> %442, %444
+  store <8 x double> %446, ptr %445, align 64
+  %447 = fmul contract <8 x double> %446, %446
+  %448 = load <8 x double>, ptr %413, align 64
+  %449 = fsub contract <8 x double> %448, %447
+  store <8 x double> %449, ptr %413, align 64
+  %450 = load <8 x double>, ptr %445, align 64
+  %451 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %424
+  %452 = load <8 x double>, ptr %451, align 64
+  %453 = fmul contract <8 x double> %450, %452
+  %454 = fsub contract <8 x double> %423, %453
+  store <8 x double> %454, ptr %418, align 64
+  %455 = add nuw nsw i64 %424, 1
+  %456 = icmp eq i64 %455, %412
+  br i1 %456, label %431, label %422
 
-450:
-  %451 = icmp ne <8 x i64> %495, zeroinitializer
-  %452 = bitcast <8 x i1> %451 to i8
-  %453 = icmp ne i8 %452, 0
-  %454 = and i1 %332, %453
-  br i1 %454, label %331, label %503
+457:
+  %458 = phi <8 x double> [ %430, %428 ], [ %465, %457 ]
+  %459 = phi i64 [ 0, %428 ], [ %466, %457 ]
+  %460 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %412, i64 %459
+  %461 = load <8 x double>, ptr %460, align 64
+  %462 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %424, i64 %459
+  %463 = load <8 x double>, ptr %462, align 64
+  %464 = fmul contract <8 x double> %461, %463
+  %465 = fsub contract <8 x double> %458, %464
+  store <8 x double> %465, ptr %429, align 64
+  %466 = add nuw nsw i64 %459, 1
+  %467 = icmp eq i64 %466, %424
+  br i1 %467, label %441, label %457
 
-455:
-  %456 = phi i64 [ %496, %494 ], [ 0, %426 ]
-  %457 = phi <8 x i64> [ %495, %494 ], [ zeroinitializer, %426 ]
-  %458 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %456
-  br i1 %288, label %481, label %459
+468:
+  br i1 %356, label %497, label %584
 
-459:
-  %460 = phi <8 x double> [ zeroinitializer, %455 ], [ %489, %481 ]
-  %461 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %456
-  %462 = load <8 x double>, ptr %461, align 64
-  %463 = fmul contract <8 x double> %460, %462
-  store <8 x double> %463, ptr %458, align 64
-  %464 = getelementptr inbounds <8 x double>, ptr %12, i64 %456
-  %465 = load <8 x double>, ptr %464, align 64
-  %466 = getelementptr inbounds double, ptr %315, i64 %456
-  %467 = load double, ptr %466, align 8
-  %468 = insertelement <8 x double> poison, double %467, i64 0
-  %469 = shufflevector <8 x double> %468, <8 x double> poison, <8 x i32> zeroinitializer
-  %470 = fcmp contract ole <8 x double> %465, %469
-  %471 = fcmp contract olt <8 x double> %463, zeroinitializer
-  %472 = and <8 x i1> %470, %471
-  %473 = getelementptr inbounds double, ptr %316, i64 %456
-  %474 = load double, ptr %473, align 8
-  %475 = insertelement <8 x double> poison, double %474, i64 0
-  %476 = shufflevector <8 x double> %475, <8 x double> poison, <8 x i32> zeroinitializer
-  %477 = fcmp contract oge <8 x double> %465, %476
-  %478 = fcmp contract ogt <8 x double> %463, zeroinitializer
-  %479 = and <8 x i1> %477, %478
-  %480 = or <8 x i1> %479, %472
-  br i1 %332, label %492, label %494
+469:
+  %470 = phi i64 [ %471, %475 ], [ %327, %431 ]
+  %471 = add nsw i64 %470, -1
+  %472 = icmp slt i64 %470, %327
+  %473 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %471
+  %474 = load <8 x double>, ptr %473, align 64
+  br i1 %472, label %481, label %475
+
+475:
+  %476 = phi <8 x double> [ %474, %469 ], [ %489, %481 ]
+  %477 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %471, i64 %471
+  %478 = load <8 x double>, ptr %477, align 64
+  %479 = fmul contract <8 x double> %476, %478
+  store <8 x double> %479, ptr %473, align 64
+  %480 = icmp sgt i64 %470, 1
+  br i1 %480, label %469, label %468
 
 481:
-  %482 = phi <8 x double> [ %489, %481 ], [ zeroinitializer, %455 ]
-  %483 = phi i64 [ %490, %481 ], [ 0, %455 ]
-  %484 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %43, i64 0, i64 %483, i64 %456
+  %482 = phi <8 x double> [ %489, %481 ], [ %474, %469 ]
+  %483 = phi i64 [ %490, %481 ], [ %470, %469 ]
+  %484 = getelementptr inbounds [24 x [24 x <8 x double>]], ptr %6, i64 0, i64 %483, i64 %471
   %485 = load <8 x double>, ptr %484, align 64
   %486 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %483
   %487 = load <8 x double>, ptr %486, align 64
   %488 = fmul contract <8 x double> %485, %487
-  %489 = fadd contract <8 x double> %482, %488
+  %489 = fsub contract <8 x double> %482, %488
+  store <8 x double> %489, ptr %473, align 64
   %490 = add nuw nsw i64 %483, 1
-  %491 = icmp eq i64 %490, %287
-  br i1 %491, label %459, label %481
+  %491 = icmp eq i64 %490, %327
+  br i1 %491, label %475, label %481
 
 492:
-  %493 = select contract <8 x i1> %480, <8 x double> zeroinitializer, <8 x double> %462
-  store <8 x double> %493, ptr %461, align 64
-  br label %494
+  %493 = icmp ne <8 x i64> %537, zeroinitializer
+  %494 = bitcast <8 x i1> %493 to i8
+  %495 = icmp ne i8 %494, 0
+  %496 = and i1 %374, %495
+  br i1 %496, label %373, label %545
 
-494:
-  %495 = select <8 x i1> %480, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %457
-  %496 = add nuw nsw i64 %456, 1
-  %497 = icmp eq i64 %496, %298
-  br i1 %497, label %450, label %455
+497:
+  %498 = phi i64 [ %538, %536 ], [ 0, %468 ]
+  %499 = phi <8 x i64> [ %537, %536 ], [ zeroinitializer, %468 ]
+  %500 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %498
+  br i1 %328, label %523, label %501
 
-498:
-  %499 = fdiv contract <8 x double> <double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01>, %510
-  %500 = fcmp contract ogt <8 x double> %499, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
-  %501 = select contract <8 x i1> %500, <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, <8 x double> %499
-  %502 = icmp eq <8 x i64> %292, zeroinitializer
-  br label %513
-
-503:
-  %504 = phi <8 x double> [ %510, %503 ], [ <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>, %450 ]
-  %505 = phi i64 [ %511, %503 ], [ 0, %450 ]
-  %506 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %505
+501:
+  %502 = phi <8 x double> [ zeroinitializer, %497 ], [ %531, %523 ]
+  %503 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %498
+  %504 = load <8 x double>, ptr %503, align 64
+  %505 = fmul contract <8 x double> %502, %504
+  store <8 x double> %505, ptr %500, align 64
+  %506 = getelementptr inbounds <8 x double>, ptr %12, i64 %498
   %507 = load <8 x double>, ptr %506, align 64
-  %508 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %507)
-  %509 = fcmp contract ogt <8 x double> %504, %508
-  %510 = select contract <8 x i1> %509, <8 x double> %504, <8 x double> %508
-  %511 = add nuw nsw i64 %505, 1
-  %512 = icmp eq i64 %511, %298
-  br i1 %512, label %498, label %503
+  %508 = getelementptr inbounds double, ptr %357, i64 %498
+  %509 = load double, ptr %508, align 8
+  %510 = insertelement <8 x double> poison, double %509, i64 0
+  %511 = shufflevector <8 x double> %510, <8 x double> poison, <8 x i32> zeroinitializer
+  %512 = fcmp contract ole <8 x double> %507, %511
+  %513 = fcmp contract olt <8 x double> %505, zeroinitializer
+  %514 = and <8 x i1> %512, %513
+  %515 = getelementptr inbounds double, ptr %358, i64 %498
+  %516 = load double, ptr %515, align 8
+  %517 = insertelement <8 x double> poison, double %516, i64 0
+  %518 = shufflevector <8 x double> %517, <8 x double> poison, <8 x i32> zeroinitializer
+  %519 = fcmp contract oge <8 x double> %507, %518
+  %520 = fcmp contract ogt <8 x double> %505, zeroinitializer
+  %521 = and <8 x i1> %519, %520
+  %522 = or <8 x i1> %521, %514
+  br i1 %374, label %534, label %536
 
-513:
-  %514 = phi i64 [ 0, %498 ], [ %540, %513 ]
-  %515 = getelementptr inbounds <8 x double>, ptr %12, i64 %514
-  %516 = load <8 x double>, ptr %515, align 64
-  %517 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %514
-  %518 = load <8 x double>, ptr %517, align 64
-  %519 = fmul contract <8 x double> %501, %518
-  %520 = fadd contract <8 x double> %516, %519
-  %521 = getelementptr inbounds double, ptr %315, i64 %514
-  %522 = load double, ptr %521, align 8
-  %523 = insertelement <8 x double> poison, double %522, i64 0
-  %524 = fadd contract <8 x double> %523, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %525 = shufflevector <8 x double> %524, <8 x double> poison, <8 x i32> zeroinitializer
-  %526 = fcmp contract ogt <8 x double> %520, %525
-  %527 = select contract <8 x i1> %526, <8 x double> %520, <8 x double> %525
-  %528 = getelementptr inbounds double, ptr %316, i64 %514
-  %529 = load double, ptr %528, align 8
-  %530 = insertelement <8 x double> poison, double %529, i64 0
-  %531 = fadd contract <8 x double> %530, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %532 = shufflevector <8 x double> %531, <8 x double> poison, <8 x i32> zeroinitializer
-  %533 = fcmp contract olt <8 x double> %527, %532
-  %534 = select contract <8 x i1> %533, <8 x double> %527, <8 x double> %532
-  %535 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %514
-  %536 = load <8 x double>, ptr %535, align 64
-  %537 = fcmp contract ule <8 x double> %536, zeroinitializer
-  %538 = select <8 x i1> %537, <8 x i1> <i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true>, <8 x i1> %502
-  %539 = select contract <8 x i1> %538, <8 x double> %516, <8 x double> %534
-  store <8 x double> %539, ptr %515, align 64
-  %540 = add nuw nsw i64 %514, 1
-  %541 = icmp eq i64 %540, %298
-  br i1 %541, label %542, label %513
+523:
+  %524 = phi <8 x double> [ %531, %523 ], [ zeroinitializer, %497 ]
+  %525 = phi i64 [ %532, %523 ], [ 0, %497 ]
+  %526 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %44, i64 0, i64 %525, i64 %498
+  %527 = load <8 x double>, ptr %526, align 64
+  %528 = getelementptr inbounds [24 x <8 x double>], ptr %7, i64 0, i64 %525
+  %529 = load <8 x double>, ptr %528, align 64
+  %530 = fmul contract <8 x double> %527, %529
+  %531 = fadd contract <8 x double> %524, %530
+  %532 = add nuw nsw i64 %525, 1
+  %533 = icmp eq i64 %532, %327
+  br i1 %533, label %501, label %523
 
-542:
+534:
+  %535 = select contract <8 x i1> %522, <8 x double> zeroinitializer, <8 x double> %504
+  store <8 x double> %535, ptr %503, align 64
+  br label %536
+
+536:
+  %537 = select <8 x i1> %522, <8 x i64> <i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1, i64 -1>, <8 x i64> %499
+  %538 = add nuw nsw i64 %498, 1
+  %539 = icmp eq i64 %538, %355
+  br i1 %539, label %492, label %497
+
+540:
+  %541 = fdiv contract <8 x double> <double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01, double 3.000000e-01>, %552
+  %542 = fcmp contract ogt <8 x double> %541, <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>
+  %543 = select contract <8 x i1> %542, <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, <8 x double> %541
+  %544 = icmp eq <8 x i64> %332, zeroinitializer
+  br label %555
+
+545:
+  %546 = phi <8 x double> [ %552, %545 ], [ <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>, %492 ]
+  %547 = phi i64 [ %553, %545 ], [ 0, %492 ]
+  %548 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %547
+  %549 = load <8 x double>, ptr %548, align 64
+  %550 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %549)
+  %551 = fcmp contract ogt <8 x double> %546, %550
+  %552 = select contract <8 x i1> %551, <8 x double> %546, <8 x double> %550
+  %553 = add nuw nsw i64 %547, 1
+  %554 = icmp eq i64 %553, %355
+  br i1 %554, label %540, label %545
+
+555:
+  %556 = phi i64 [ 0, %540 ], [ %582, %555 ]
+  %557 = getelementptr inbounds <8 x double>, ptr %12, i64 %556
+  %558 = load <8 x double>, ptr %557, align 64
+  %559 = getelementptr inbounds [64 x <8 x double>], ptr %5, i64 0, i64 %556
+  %560 = load <8 x double>, ptr %559, align 64
+  %561 = fmul contract <8 x double> %543, %560
+  %562 = fadd contract <8 x double> %558, %561
+  %563 = getelementptr inbounds double, ptr %357, i64 %556
+  %564 = load double, ptr %563, align 8
+  %565 = insertelement <8 x double> poison, double %564, i64 0
+  %566 = fadd contract <8 x double> %565, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %567 = shufflevector <8 x double> %566, <8 x double> poison, <8 x i32> zeroinitializer
+  %568 = fcmp contract ogt <8 x double> %562, %567
+  %569 = select contract <8 x i1> %568, <8 x double> %562, <8 x double> %567
+  %570 = getelementptr inbounds double, ptr %358, i64 %556
+  %571 = load double, ptr %570, align 8
+  %572 = insertelement <8 x double> poison, double %571, i64 0
+  %573 = fadd contract <8 x double> %572, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %574 = shufflevector <8 x double> %573, <8 x double> poison, <8 x i32> zeroinitializer
+  %575 = fcmp contract olt <8 x double> %569, %574
+  %576 = select contract <8 x i1> %575, <8 x double> %569, <8 x double> %574
+  %577 = getelementptr inbounds [64 x <8 x double>], ptr %4, i64 0, i64 %556
+  %578 = load <8 x double>, ptr %577, align 64
+  %579 = fcmp contract ule <8 x double> %578, zeroinitializer
+  %580 = select <8 x i1> %579, <8 x i1> <i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true, i1 true>, <8 x i1> %544
+  %581 = select contract <8 x i1> %580, <8 x double> %558, <8 x double> %576
+  store <8 x double> %581, ptr %557, align 64
+  %582 = add nuw nsw i64 %556, 1
+  %583 = icmp eq i64 %582, %355
+  br i1 %583, label %584, label %555
+
+584:
   call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %7)
   call void @llvm.lifetime.end.p0(i64 36864, ptr nonnull %6)
   call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %5)
   call void @llvm.lifetime.end.p0(i64 4096, ptr nonnull %4)
-  %543 = add nuw nsw i64 %286, 1
-  br label %285
+  %585 = add nuw nsw i64 %326, 1
+  br label %325
 
-544:
-  %545 = phi <8 x double> [ zeroinitializer, %299 ], [ %566, %551 ]
-  %546 = phi <8 x double> [ zeroinitializer, %299 ], [ %564, %551 ]
-  %547 = load i64, ptr %33, align 8
-  %548 = icmp eq i64 %547, 0
-  %549 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %546)
-  %550 = select contract i1 %548, <8 x double> %549, <8 x double> %545
-  br i1 %20, label %623, label %596
+586:
+  %587 = load i64, ptr %37, align 8
+  %588 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %602)
+  br label %662
 
-551:
-  %552 = phi <8 x double> [ zeroinitializer, %301 ], [ %564, %551 ]
-  %553 = phi i64 [ 0, %301 ], [ %567, %551 ]
-  %554 = phi <8 x double> [ zeroinitializer, %301 ], [ %566, %551 ]
-  %555 = getelementptr inbounds <8 x double>, ptr %11, i64 %553
-  %556 = load <8 x double>, ptr %555, align 64
-  %557 = getelementptr inbounds double, ptr %302, i64 %553
-  %558 = load double, ptr %557, align 8
-  %559 = insertelement <8 x double> poison, double %558, i64 0
-  %560 = shufflevector <8 x double> %559, <8 x double> poison, <8 x i32> zeroinitializer
-  %561 = fmul contract <8 x double> %556, %560
-  %562 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %561)
-  %563 = fmul contract <8 x double> %561, %561
-  %564 = fadd contract <8 x double> %552, %563
-  %565 = fcmp contract ogt <8 x double> %554, %562
-  %566 = select contract <8 x i1> %565, <8 x double> %554, <8 x double> %562
-  %567 = add nuw nsw i64 %553, 1
-  %568 = icmp eq i64 %567, %298
-  br i1 %568, label %544, label %551
+589:
+  %590 = phi <8 x double> [ zeroinitializer, %342 ], [ %602, %589 ]
+  %591 = phi i64 [ 0, %342 ], [ %605, %589 ]
+  %592 = phi <8 x double> [ zeroinitializer, %342 ], [ %604, %589 ]
+  %593 = getelementptr inbounds <8 x double>, ptr %11, i64 %591
+  %594 = load <8 x double>, ptr %593, align 64
+  %595 = getelementptr inbounds double, ptr %343, i64 %591
+  %596 = load double, ptr %595, align 8
+  %597 = insertelement <8 x double> poison, double %596, i64 0
+  %598 = shufflevector <8 x double> %597, <8 x double> poison, <8 x i32> zeroinitializer
+  %599 = fmul contract <8 x double> %594, %598
+  %600 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %599)
+  %601 = fmul contract <8 x double> %599, %599
+  %602 = fadd contract <8 x double> %590, %601
+  %603 = fcmp contract ogt <8 x double> %592, %600
+  %604 = select contract <8 x i1> %603, <8 x double> %592, <8 x double> %600
+  %605 = add nuw nsw i64 %591, 1
+  %606 = icmp eq i64 %605, %18
+  br i1 %606, label %586, label %589
 
-569:
-  %570 = phi i64 [ 0, %268 ], [ %594, %569 ]
-  %571 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %570
-  %572 = load <8 x double>, ptr %571, align 64
-  %573 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %570
-  %574 = load <8 x double>, ptr %573, align 64
-  %575 = fadd contract <8 x double> %572, %574
-  %576 = getelementptr inbounds double, ptr %271, i64 %570
-  %577 = load double, ptr %576, align 8
-  %578 = insertelement <8 x double> poison, double %577, i64 0
-  %579 = fadd contract <8 x double> %578, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %580 = shufflevector <8 x double> %579, <8 x double> poison, <8 x i32> zeroinitializer
-  %581 = fcmp contract ogt <8 x double> %575, %580
-  %582 = select contract <8 x i1> %581, <8 x double> %575, <8 x double> %580
-  %583 = getelementptr inbounds double, ptr %272, i64 %570
-  %584 = load double, ptr %583, align 8
-  %585 = insertelement <8 x double> poison, double %584, i64 0
-  %586 = fadd contract <8 x double> %585, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
-  %587 = shufflevector <8 x double> %586, <8 x double> poison, <8 x i32> zeroinitializer
-  %588 = fcmp contract olt <8 x double> %582, %587
-  %589 = select contract <8 x i1> %588, <8 x double> %582, <8 x double> %587
-  %590 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %570
-  %591 = load <8 x double>, ptr %590, align 64
-  %592 = select contract <8 x i1> %273, <8 x double> %589, <8 x double> %591
-  %593 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %570
-  store <8 x double> %592, ptr %593, align 64
-  %594 = add nuw nsw i64 %570, 1
-  %595 = icmp eq i64 %594, %18
-  br i1 %595, label %282, label %569
-
-596:
-  br i1 %300, label %597, label %599
-
-597:
-  %598 = load ptr, ptr %32, align 8
-  br label %605
-
-599:
-  %600 = phi <8 x double> [ zeroinitializer, %596 ], [ %620, %605 ]
-  %601 = phi <8 x double> [ zeroinitializer, %596 ], [ %618, %605 ]
-  %602 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %601)
-  %603 = select contract i1 %548, <8 x double> %602, <8 x double> %600
-  %604 = fsub contract <8 x double> %169, %603
-  br label %637
-
-605:
-  %606 = phi <8 x double> [ zeroinitializer, %597 ], [ %618, %605 ]
-  %607 = phi i64 [ 0, %597 ], [ %621, %605 ]
-  %608 = phi <8 x double> [ zeroinitializer, %597 ], [ %620, %605 ]
-  %609 = getelementptr inbounds <8 x double>, ptr %10, i64 %607
+607:
+  %608 = phi i64 [ 0, %308 ], [ %632, %607 ]
+  %609 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %608
   %610 = load <8 x double>, ptr %609, align 64
-  %611 = getelementptr inbounds double, ptr %598, i64 %607
-  %612 = load double, ptr %611, align 8
-  %613 = insertelement <8 x double> poison, double %612, i64 0
-  %614 = shufflevector <8 x double> %613, <8 x double> poison, <8 x i32> zeroinitializer
-  %615 = fmul contract <8 x double> %610, %614
-  %616 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %615)
-  %617 = fmul contract <8 x double> %615, %615
-  %618 = fadd contract <8 x double> %606, %617
-  %619 = fcmp contract ogt <8 x double> %608, %616
-  %620 = select contract <8 x i1> %619, <8 x double> %608, <8 x double> %616
-  %621 = add nuw nsw i64 %607, 1
-  %622 = icmp eq i64 %621, %298
-  br i1 %622, label %599, label %605
+  %611 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %608
+  %612 = load <8 x double>, ptr %611, align 64
+  %613 = fadd contract <8 x double> %610, %612
+  %614 = getelementptr inbounds double, ptr %311, i64 %608
+  %615 = load double, ptr %614, align 8
+  %616 = insertelement <8 x double> poison, double %615, i64 0
+  %617 = fadd contract <8 x double> %616, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %618 = shufflevector <8 x double> %617, <8 x double> poison, <8 x i32> zeroinitializer
+  %619 = fcmp contract ogt <8 x double> %613, %618
+  %620 = select contract <8 x i1> %619, <8 x double> %613, <8 x double> %618
+  %621 = getelementptr inbounds double, ptr %312, i64 %608
+  %622 = load double, ptr %621, align 8
+  %623 = insertelement <8 x double> poison, double %622, i64 0
+  %624 = fadd contract <8 x double> %623, <double 0.000000e+00, double poison, double poison, double poison, double poison, double poison, double poison, double poison>
+  %625 = shufflevector <8 x double> %624, <8 x double> poison, <8 x i32> zeroinitializer
+  %626 = fcmp contract olt <8 x double> %620, %625
+  %627 = select contract <8 x i1> %626, <8 x double> %620, <8 x double> %625
+  %628 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %608
+  %629 = load <8 x double>, ptr %628, align 64
+  %630 = select contract <8 x i1> %313, <8 x double> %627, <8 x double> %629
+  %631 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %608
+  store <8 x double> %630, ptr %631, align 64
+  %632 = add nuw nsw i64 %608, 1
+  %633 = icmp eq i64 %632, %18
+  br i1 %633, label %322, label %607
 
-623:
-  %624 = phi i64 [ %635, %623 ], [ 0, %544 ]
-  %625 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %624
-  %626 = load <8 x double>, ptr %625, align 64
-  %627 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %624
-  %628 = load <8 x double>, ptr %627, align 64
-  %629 = fsub contract <8 x double> %626, %628
-  %630 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %624
-  store <8 x double> %629, ptr %630, align 64
-  %631 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %624
-  %632 = load <8 x double>, ptr %631, align 64
-  %633 = fsub contract <8 x double> %628, %632
-  %634 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %624
-  store <8 x double> %633, ptr %634, align 64
-  %635 = add nuw nsw i64 %624, 1
-  %636 = icmp eq i64 %635, %18
-  br i1 %636, label %596, label %623
+634:
+  %635 = select contract i1 %677, <8 x double> %588, <8 x double> %604
+  br label %636
 
-637:
-  %638 = phi i64 [ %64, %599 ], [ %722, %721 ]
-  %639 = phi i64 [ 0, %599 ], [ %723, %721 ]
-  %640 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %639
-  %641 = load i64, ptr %640, align 8
-  %642 = icmp slt i64 %641, 0
-  br i1 %642, label %721, label %643
-
-643:
-  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %16)
-  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %17)
-  br i1 %20, label %652, label %644
+636:
+  %637 = phi i1 [ %341, %339 ], [ %677, %634 ]
+  %638 = phi <8 x double> [ zeroinitializer, %339 ], [ %635, %634 ]
+  %639 = phi <8 x double> [ zeroinitializer, %339 ], [ %659, %634 ]
+  %640 = phi <8 x double> [ zeroinitializer, %339 ], [ %657, %634 ]
+  %641 = call contract <8 x double> @llvm.sqrt.v8f64(<8 x double> %640)
+  %642 = select contract i1 %637, <8 x double> %641, <8 x double> %639
+  %643 = fsub contract <8 x double> %169, %642
+  br label %678
 
 644:
-  %645 = extractelement <8 x double> %169, i64 %639
-  %646 = fcmp contract ogt double %645, 0.000000e+00
-  %647 = extractelement <8 x double> %604, i64 %639
-  %648 = extractelement <8 x double> %550, i64 %639
-  %649 = fmul contract double %648, 1.000000e-01
-  %650 = fcmp contract ogt double %647, %649
-  %651 = and i1 %646, %650
-  br i1 %651, label %664, label %674
+  %645 = phi <8 x double> [ %657, %644 ], [ zeroinitializer, %676 ]
+  %646 = phi i64 [ %660, %644 ], [ 0, %676 ]
+  %647 = phi <8 x double> [ %659, %644 ], [ zeroinitializer, %676 ]
+  %648 = getelementptr inbounds <8 x double>, ptr %10, i64 %646
+  %649 = load <8 x double>, ptr %648, align 64
+  %650 = getelementptr inbounds double, ptr %343, i64 %646
+  %651 = load double, ptr %650, align 8
+  %652 = insertelement <8 x double> poison, double %651, i64 0
+  %653 = shufflevector <8 x double> %652, <8 x double> poison, <8 x i32> zeroinitializer
+  %654 = fmul contract <8 x double> %649, %653
+  %655 = call contract noundef <8 x double> @llvm.fabs.v8f64(<8 x double> %654)
+  %656 = fmul contract <8 x double> %654, %654
+  %657 = fadd contract <8 x double> %645, %656
+  %658 = fcmp contract ogt <8 x double> %647, %655
+  %659 = select contract <8 x i1> %658, <8 x double> %647, <8 x double> %655
+  %660 = add nuw nsw i64 %646, 1
+  %661 = icmp eq i64 %660, %18
+  br i1 %661, label %634, label %644
 
-652:
-  %653 = phi i64 [ %662, %652 ], [ 0, %643 ]
-  %654 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %653
-  %655 = load <8 x double>, ptr %654, align 64
-  %656 = extractelement <8 x double> %655, i64 %639
-  %657 = getelementptr inbounds [64 x double], ptr %16, i64 0, i64 %653
-  store double %656, ptr %657, align 8
-  %658 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %653
-  %659 = load <8 x double>, ptr %658, align 64
-  %660 = extractelement <8 x double> %659, i64 %639
-  %661 = getelementptr inbounds [64 x double], ptr %17, i64 0, i64 %653
-  store double %660, ptr %661, align 8
-  %662 = add nuw nsw i64 %653, 1
-  %663 = icmp eq i64 %662, %18
-  br i1 %663, label %644, label %652
+662:
+  %663 = phi i64 [ %674, %662 ], [ 0, %586 ]
+  %664 = getelementptr inbounds [64 x <8 x double>], ptr %9, i64 0, i64 %663
+  %665 = load <8 x double>, ptr %664, align 64
+  %666 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %663
+  %667 = load <8 x double>, ptr %666, align 64
+  %668 = fsub contract <8 x double> %665, %667
+  %669 = getelementptr inbounds [64 x <8 x double>], ptr %10, i64 0, i64 %663
+  store <8 x double> %668, ptr %669, align 64
+  %670 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %663
+  %671 = load <8 x double>, ptr %670, align 64
+  %672 = fsub contract <8 x double> %667, %671
+  %673 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %663
+  store <8 x double> %672, ptr %673, align 64
+  %674 = add nuw nsw i64 %663, 1
+  %675 = icmp eq i64 %674, %18
+  br i1 %675, label %676, label %662
 
-664:
-  %665 = load ptr, ptr %44, align 8
-  %666 = call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(120) %0, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %665)
-  br i1 %666, label %667, label %674
+676:
+  %677 = icmp eq i64 %587, 0
+  br label %644
 
-667:
-  br i1 %45, label %677, label %668
+678:
+  %679 = phi i64 [ %158, %636 ], [ %763, %762 ]
+  %680 = phi i64 [ 0, %636 ], [ %764, %762 ]
+  %681 = getelementptr inbounds [8 x i64], ptr %14, i64 0, i64 %680
+  %682 = load i64, ptr %681, align 8
+  %683 = icmp slt i64 %682, 0
+  br i1 %683, label %762, label %684
 
-668:
-  %669 = load ptr, ptr %44, align 8
-  %670 = load double, ptr %46, align 8
-  %671 = call fastcc noundef zeroext i1 @_ZL10prove_edgeRK5SceneIdEPKdS4_S4_d(ptr noundef nonnull readonly align 8 dereferenceable(136) %1, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %669, double noundef %670)
-  %672 = load ptr, ptr %30, align 8
-  %673 = getelementptr inbounds i64, ptr %672, i64 %641
-  br i1 %671, label %680, label %700
+684:
+  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %16)
+  call void @llvm.lifetime.start.p0(i64 512, ptr nonnull %17)
+  br i1 %20, label %693, label %685
 
-674:
-  %675 = load ptr, ptr %30, align 8
-  %676 = getelementptr inbounds i64, ptr %675, i64 %641
-  br label %700
+685:
+  %686 = extractelement <8 x double> %169, i64 %680
+  %687 = fcmp contract ogt double %686, 0.000000e+00
+  %688 = extractelement <8 x double> %643, i64 %680
+  %689 = extractelement <8 x double> %638, i64 %680
+  %690 = fmul contract double %689, 1.000000e-01
+  %691 = fcmp contract ogt double %688, %690
+  %692 = and i1 %687, %691
+  br i1 %692, label %705, label %715
 
-677:
-  %678 = load ptr, ptr %30, align 8
-  %679 = getelementptr inbounds i64, ptr %678, i64 %641
-  br label %680
+693:
+  %694 = phi i64 [ %703, %693 ], [ 0, %684 ]
+  %695 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %694
+  %696 = load <8 x double>, ptr %695, align 64
+  %697 = extractelement <8 x double> %696, i64 %680
+  %698 = getelementptr inbounds [64 x double], ptr %16, i64 0, i64 %694
+  store double %697, ptr %698, align 8
+  %699 = getelementptr inbounds [64 x <8 x double>], ptr %11, i64 0, i64 %694
+  %700 = load <8 x double>, ptr %699, align 64
+  %701 = extractelement <8 x double> %700, i64 %680
+  %702 = getelementptr inbounds [64 x double], ptr %17, i64 0, i64 %694
+  store double %701, ptr %702, align 8
+  %703 = add nuw nsw i64 %694, 1
+  %704 = icmp eq i64 %703, %18
+  br i1 %704, label %685, label %693
 
-680:
-  %681 = phi ptr [ %673, %668 ], [ %679, %677 ]
-  br i1 %20, label %682, label %700
+705:
+  %706 = load ptr, ptr %45, align 8
+  %707 = call fastcc noundef zeroext i1 @_ZL17prove_constraintsRK8ManifoldPKdS3_S3_(ptr noundef nonnull align 8 dereferenceable(104) %0, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %706)
+  br i1 %707, label %708, label %715
 
-682:
-  %683 = phi i64 [ %698, %682 ], [ 0, %680 ]
-  %684 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %683
-  %685 = load <8 x double>, ptr %684, align 64
-  %686 = extractelement <8 x double> %685, i64 %639
-  %687 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %683
-  %688 = load <8 x double>, ptr %687, align 64
-  %689 = insertelement <8 x double> %688, double %686, i64 %639
-  store <8 x double> %689, ptr %687, align 64
-  %690 = load ptr, ptr %47, align 8
-  %691 = load i64, ptr %48, align 8
-  %692 = mul nsw i64 %691, %641
-  %693 = load i64, ptr %681, align 8
-  %694 = add nsw i64 %692, %693
-  %695 = mul nsw i64 %694, %18
-  %696 = getelementptr double, ptr %690, i64 %695
-  %697 = getelementptr double, ptr %696, i64 %683
-  store double %686, ptr %697, align 8
-  %698 = add nuw nsw i64 %683, 1
-  %699 = icmp eq i64 %698, %18
-  br i1 %699, label %700, label %682
+708:
+  br i1 %46, label %718, label %709
 
-700:
-  %701 = phi ptr [ %676, %674 ], [ %673, %668 ], [ %681, %680 ], [ %681, %682 ]
-  %702 = phi i1 [ false, %674 ], [ false, %668 ], [ true, %680 ], [ true, %682 ]
-  %703 = zext i1 %702 to i64
-  %704 = load i64, ptr %701, align 8
-  %705 = add nsw i64 %704, %703
-  store i64 %705, ptr %701, align 8
-  %706 = extractelement <8 x i64> %283, i64 %639
-  %707 = icmp eq i64 %706, 0
-  %708 = select i1 %702, i1 %707, i1 false
-  %709 = load i64, ptr %48, align 8
-  %710 = icmp slt i64 %705, %709
-  %711 = select i1 %708, i1 %710, i1 false
-  br i1 %711, label %719, label %712
+709:
+  %710 = load ptr, ptr %45, align 8
+  %711 = load double, ptr %47, align 8
+  %712 = call fastcc noundef zeroext i1 @_ZL10prove_edgeRK5SceneIdEPKdS4_S4_d(ptr noundef nonnull readonly align 8 dereferenceable(136) %1, ptr noundef nonnull %16, ptr noundef nonnull %17, ptr noundef %710, double noundef %711)
+  %713 = load ptr, ptr %29, align 8
+  %714 = getelementptr inbounds i64, ptr %713, i64 %682
+  br i1 %712, label %721, label %741
 
-712:
-  %713 = icmp ne i64 %706, 0
-  %714 = select i1 %702, i1 %713, i1 false
-  %715 = zext i1 %714 to i8
-  %716 = load ptr, ptr %31, align 8
-  %717 = getelementptr inbounds i8, ptr %716, i64 %641
-  store i8 %715, ptr %717, align 1
-  store i64 -1, ptr %640, align 8
-  %718 = add nsw i64 %638, -1
-  br label %719
+715:
+  %716 = load ptr, ptr %29, align 8
+  %717 = getelementptr inbounds i64, ptr %716, i64 %682
+  br label %741
 
-719:
-  %720 = phi i64 [ %718, %712 ], [ %638, %700 ]
-  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %17)
-  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %16)
+718:
+  %719 = load ptr, ptr %29, align 8
+  %720 = getelementptr inbounds i64, ptr %719, i64 %682
   br label %721
 
 721:
-  %722 = phi i64 [ %638, %637 ], [ %720, %719 ]
-  %723 = add nuw nsw i64 %639, 1
-  %724 = icmp eq i64 %723, 8
-  br i1 %724, label %55, label %637
+  %722 = phi ptr [ %714, %709 ], [ %720, %718 ]
+  br i1 %20, label %723, label %741
 
-725:
+723:
+  %724 = phi i64 [ %739, %723 ], [ 0, %721 ]
+  %725 = getelementptr inbounds [64 x <8 x double>], ptr %12, i64 0, i64 %724
+  %726 = load <8 x double>, ptr %725, align 64
+  %727 = extractelement <8 x double> %726, i64 %680
+  %728 = getelementptr inbounds [64 x <8 x double>], ptr %8, i64 0, i64 %724
+  %729 = load <8 x double>, ptr %728, align 64
+  %730 = insertelement <8 x double> %729, double %727, i64 %680
+  store <8 x double> %730, ptr %728, align 64
+  %731 = load ptr, ptr %48, align 8
+  %732 = load i64, ptr %49, align 8
+  %733 = mul nsw i64 %732, %682
+  %734 = load i64, ptr %722, align 8
+  %735 = add nsw i64 %733, %734
+  %736 = mul nsw i64 %735, %18
+  %737 = getelementptr double, ptr %731, i64 %736
+  %738 = getelementptr double, ptr %737, i64 %724
+  store double %727, ptr %738, align 8
+  %739 = add nuw nsw i64 %724, 1
+  %740 = icmp eq i64 %739, %18
+  br i1 %740, label %741, label %723
+
+741:
+  %742 = phi ptr [ %717, %715 ], [ %714, %709 ], [ %722, %721 ], [ %722, %723 ]
+  %743 = phi i1 [ false, %715 ], [ false, %709 ], [ true, %721 ], [ true, %723 ]
+  %744 = zext i1 %743 to i64
+  %745 = load i64, ptr %742, align 8
+  %746 = add nsw i64 %745, %744
+  store i64 %746, ptr %742, align 8
+  %747 = extractelement <8 x i64> %323, i64 %680
+  %748 = icmp eq i64 %747, 0
+  %749 = select i1 %743, i1 %748, i1 false
+  %750 = load i64, ptr %49, align 8
+  %751 = icmp slt i64 %746, %750
+  %752 = select i1 %749, i1 %751, i1 false
+  br i1 %752, label %760, label %753
+
+753:
+  %754 = icmp ne i64 %747, 0
+  %755 = select i1 %743, i1 %754, i1 false
+  %756 = zext i1 %755 to i8
+  %757 = load ptr, ptr %30, align 8
+  %758 = getelementptr inbounds i8, ptr %757, i64 %682
+  store i8 %756, ptr %758, align 1
+  store i64 -1, ptr %681, align 8
+  %759 = add nsw i64 %679, -1
+  br label %760
+
+760:
+  %761 = phi i64 [ %759, %753 ], [ %679, %741 ]
+  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %17)
+  call void @llvm.lifetime.end.p0(i64 512, ptr nonnull %16)
+  br label %762
+
+762:
+  %763 = phi i64 [ %679, %678 ], [ %761, %760 ]
+  %764 = add nuw nsw i64 %680, 1
+  %765 = icmp eq i64 %764, 8
+  br i1 %765, label %766, label %678
+
+766:
+  br label %56
+
+767:
   call void @llvm.lifetime.end.p0(i64 103168, ptr nonnull %15)
   call void @llvm.lifetime.end.p0(i64 64, ptr nonnull %14)
   call void @llvm.lifetime.end.p0(i64 1536, ptr nonnull %13)
@@ -8355,12 +8414,12 @@ declare <8 x double> @llvm.fabs.v8f64(<8 x double>)
 
 declare <8 x double> @llvm.sqrt.v8f64(<8 x double>)
 
-define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(120) %1, ptr noundef %2) comdat align 2 {
+define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(104) %1, ptr noundef %2) comdat align 2 {
   %4 = alloca [9 x <8 x double>], align 64
   %5 = alloca [65 x %struct.Frame.3], align 64
   %6 = load i64, ptr %1, align 8
   call void @llvm.lifetime.start.p0(i64 49920, ptr nonnull %5)
-  %7 = getelementptr inbounds i8, ptr %1, i64 32
+  %7 = getelementptr inbounds i8, ptr %1, i64 24
   %8 = load ptr, ptr %7, align 8
   br label %11
 
@@ -8629,7 +8688,7 @@ define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noun
   br i1 %231, label %232, label %28
 
 232:
-  %233 = getelementptr inbounds i8, ptr %1, i64 48
+  %233 = getelementptr inbounds i8, ptr %1, i64 40
   %234 = load ptr, ptr %233, align 8
   %235 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %6
   %236 = getelementptr inbounds i8, ptr %234, i64 72
@@ -8692,7 +8751,7 @@ define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noun
   br i1 %291, label %292, label %297
 
 292:
-  %293 = getelementptr inbounds i8, ptr %1, i64 40
+  %293 = getelementptr inbounds i8, ptr %1, i64 32
   %294 = getelementptr inbounds i8, ptr %0, i64 101632
   %295 = getelementptr inbounds i8, ptr %0, i64 8
   %296 = getelementptr inbounds i8, ptr %0, i64 256
@@ -8950,14 +9009,14 @@ define linkonce_odr void @_ZN6Errors8evaluateILb0EEEvRK8ManifoldPKDv8_d(ptr noun
   br i1 %510, label %298, label %297
 }
 
-define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(120) %1, ptr noundef %2) comdat align 2 {
+define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noundef nonnull align 64 dereferenceable(103168) %0, ptr noundef nonnull align 8 dereferenceable(104) %1, ptr noundef %2) comdat align 2 {
   %4 = alloca [9 x <8 x double>], align 64
   %5 = alloca [65 x %struct.Frame.3], align 64
   %6 = alloca [3 x <8 x double>], align 64
   %7 = alloca [3 x <8 x double>], align 64
   %8 = load i64, ptr %1, align 8
   call void @llvm.lifetime.start.p0(i64 49920, ptr nonnull %5)
-  %9 = getelementptr inbounds i8, ptr %1, i64 32
+  %9 = getelementptr inbounds i8, ptr %1, i64 24
   %10 = load ptr, ptr %9, align 8
   br label %13
 
@@ -9226,7 +9285,7 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   br i1 %233, label %234, label %30
 
 234:
-  %235 = getelementptr inbounds i8, ptr %1, i64 48
+  %235 = getelementptr inbounds i8, ptr %1, i64 40
   %236 = load ptr, ptr %235, align 8
   %237 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %8
   %238 = getelementptr inbounds i8, ptr %236, i64 72
@@ -9289,10 +9348,10 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   br i1 %293, label %294, label %306
 
 294:
-  %295 = getelementptr inbounds i8, ptr %1, i64 40
+  %295 = getelementptr inbounds i8, ptr %1, i64 32
   %296 = getelementptr inbounds i8, ptr %0, i64 1792
   %297 = getelementptr inbounds i8, ptr %0, i64 3328
-  %298 = getelementptr inbounds i8, ptr %1, i64 88
+  %298 = getelementptr inbounds i8, ptr %1, i64 80
   %299 = getelementptr inbounds i8, ptr %0, i64 101632
   %300 = getelementptr inbounds i8, ptr %0, i64 8
   %301 = getelementptr inbounds i8, ptr %0, i64 256
