@@ -29,7 +29,7 @@ from holdfast.response.faults import FaultEvent, feasible
 from holdfast.response.recovery.problem import describe_goal_violation
 from holdfast.response.recovery.proofs import flood
 from holdfast.response.recovery.proofs.blocked_boxes import BlockedBoxes
-from holdfast.response.recovery.proofs.flood import make_configuration_test, prove_disconnected
+from holdfast.response.recovery.proofs.flood import find_confined_regions
 from holdfast.response.recovery.proofs.reach import prove_unreachable
 from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import make_row_solver
@@ -181,7 +181,7 @@ def test_disconnected_no_flood_over_a_grid_joins_what_is_proved_apart(three, rng
         open_ = np.argwhere(room > 0.02)
         start, goal = (tuple(open_[k]) for k in rng.integers(len(open_), size=2))
         space = FreeSpace(three, np.array([True, False, True]), clearance, 0.0, np.stack([grid[start], grid[goal]]))
-        proof = prove_disconnected(space, grid[start], make_configuration_test(space, grid[goal]))
+        proof = next(find_confined_regions(space, grid[start], grid[goal][None]), None)
         # Half-way between two cells that share an edge no point of the arm is farther from where it is at one of them.
         farthest = 3 * (HIGH - LOW).max() / count / 2
         sure = label(room > farthest)[0]

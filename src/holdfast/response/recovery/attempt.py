@@ -215,7 +215,6 @@ class RecoveryAttempt:
             return route, None
         proof = prove_goal_disconnected(
             self.recovery,
-            self.search.solver.rows,
             self.search.space,
             start=q_current,
             known_goals=goals,

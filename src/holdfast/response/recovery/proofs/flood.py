@@ -11,7 +11,7 @@ objects for every angle of the wrist, or a gripper next to a forearm. The other 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import TYPE_CHECKING
@@ -22,17 +22,12 @@ from holdfast.core.caching import cached_property
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.interval_search.boxes import Blocked
 from holdfast.kinematics.solvers import joint_space
-from holdfast.model.arm.poses import rotation_vectors
 from holdfast.model.collision.clearance import Clearance
-from holdfast.response.recovery.proofs.blocked_cells import BlockedCells, LinkPoints
+from holdfast.response.recovery.proofs.blocked_cells import BlockedCells
 from holdfast.response.recovery.space import FreeSpace
-from holdfast.response.recovery.task_rows import TaskRows
 
 if TYPE_CHECKING:
     pass
-
-CellTest = Callable[[FloatArray, FloatArray], BoolArray]
-"""Test that returns True where cells with these middles (N, n) and half widths (n,) may contain a configuration of the goal."""
 
 _MAX_JOINTS = 3  # largest number of moving joints
 _INITIAL_CELLS_PER_JOINT = 8  # cells of each joint at first
@@ -46,36 +41,24 @@ _MAX_CONSTRAINED_JOINTS = 4  # joints of a flood of all configurations that meet
 _MAX_CONSTRAINED_CELLS = 1_500_000  # evaluated cells of such a flood, which take 2 s
 
 
-def prove_disconnected(space: FreeSpace, start: FloatArray, may_hold_goal: CellTest) -> str | None:
-    """Prove that no motion leads from a start (n,) to the goal, and return the proof as a sentence; None if that fails.
-
-    This works for up to three moving joints; for more see :func:`find_confined_regions`.
-    """
-    joints = np.flatnonzero(space.free)
-    if len(joints) > _MAX_JOINTS or (space.manifold is None and space.clearance is None):
-        return None
-    for flood in _generate_connected_regions(space, start, joints, BlockedCells(space)):
-        if not may_hold_goal(flood.middle, flood.half_widths).any():
-            return flood.proof_sentence
-    return None
-
-
 def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: FloatArray) -> Iterator[ConnectedCells]:
-    """Yield floods over some of more than three moving joints that are confined for any values of the other joints.
+    """Yield floods from a start (n,) that contain none of the known configurations (K, n) of the goal, at most two per set.
 
-    They are over the joints that change the errors of tool constraints, over one or two joints between two links that may touch
-    each other, and over the first two, whose links touch objects. Only floods that contain none of the known configurations
-    (K, n) of the goal are yielded, at most two over the same joints.
+    They are over all moving joints, if there are at most three. Else they are over sets of joints that are confined for any
+    values of the other joints: over those that change the errors of tool constraints, over one or two joints between two links
+    that may touch each other, and over the first two, whose links touch objects.
     """
-    if space.free.sum() <= _MAX_JOINTS:
+    if space.manifold is None and space.clearance is None:
         return
     blocked, joints = BlockedCells(space), np.flatnonzero(space.free)
     attempts: list[tuple[IndexArray, Blocked, int]] = []
-    if space.manifold is not None:
+    if len(joints) <= _MAX_JOINTS:
+        attempts.append((joints, blocked, _MAX_CELLS[len(joints)]))
+    elif space.manifold is not None:
         constrained_joints = np.flatnonzero(space.manifold.changing_joints)
         if 0 < len(constrained_joints) <= _MAX_CONSTRAINED_JOINTS:
             attempts.append((constrained_joints, blocked.are_blocked_without_objects, _MAX_CONSTRAINED_CELLS))
-    if space.clearance is not None and blocked.self_blocked is not None:
+    if len(joints) > _MAX_JOINTS and space.clearance is not None and blocked.self_blocked is not None:
         attempts += [
             (flood_joints, blocked.self_blocked.are_boxes_self_colliding, _MAX_CONFINED_CELLS)
             for flood_joints in _joint_sets_between_links(space.clearance, joints)
@@ -173,7 +156,7 @@ class ConnectedCells:
 
 
 def _generate_connected_regions(
-    space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int | None = None
+    space: FreeSpace, start: FloatArray, joints: IndexArray, blocked: Blocked, max_cells: int
 ) -> Iterator[ConnectedCells]:
     """Yield floods from a start (n,) with repeatedly bisected cells; the other joints may have any value in their limits."""
     box = _bound_joints(space, joints)
@@ -184,7 +167,7 @@ def _generate_connected_regions(
     cells_per_joint, checked_cells = _INITIAL_CELLS_PER_JOINT, 0
     cells = np.array(list(product(range(cells_per_joint), repeat=len(joints))), dtype=np.int64)
     center, half_widths = (space.low + space.high) / 2, (space.high - space.low) / 2
-    while checked_cells + len(cells) <= (max_cells or _MAX_CELLS[len(joints)]) and not space.is_time_over:
+    while checked_cells + len(cells) <= max_cells and not space.is_time_over:
         half_widths = half_widths.copy()
         half_widths[joints] = (upper - lower) / (2 * cells_per_joint)
         middle = np.tile(center, (len(cells), 1))
@@ -218,47 +201,6 @@ def _generate_connected_regions(
         )
         cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(joints))))).reshape(-1, len(joints))
         cells_per_joint *= 2
-
-
-def make_configuration_test(space: FreeSpace, q: FloatArray) -> CellTest:
-    """Return the test of cells for a goal that is a configuration (n,)."""
-    return lambda middle, half: np.asarray(
-        (np.abs(joint_space.joint_difference(space.arm, middle, q)) <= half + _ROUNDING_SLACK).all(axis=1, where=space.free)
-    )
-
-
-def make_pose_test(
-    space: FreeSpace, rows: TaskRows, poses: FloatArray, tolerance: tuple[float, float] = (1e-6, 1e-6)
-) -> CellTest:
-    """Return the test of cells for a goal that is any of poses (G, 4, 4); rows of translation and rotation are ignored."""
-    arm = space.arm
-    is_rotation = np.abs(rows.matrix[:, :3]).max(axis=1) == 0
-    is_translation = np.abs(rows.matrix[:, 3:]).max(axis=1) == 0
-    linear_rows = rows.matrix[is_translation, :3]
-    full_orientation = int(np.linalg.matrix_rank(rows.matrix[is_rotation, 3:])) == 3 if is_rotation.any() else False
-    tool_point = LinkPoints(np.array([arm.n - 1]), arm.tool[None, :3, 3])
-
-    def may_hold_pose(middle: FloatArray, half_widths: FloatArray) -> BoolArray:
-        frames = arm.frames(middle)
-        max_translations = tool_point.bound_motion(arm, frames, half_widths)[:, 0] + np.sqrt(3) * tolerance[0] + _ROUNDING_SLACK
-        max_rotation = float(half_widths[~arm.prismatic].sum()) + np.sqrt(3) * tolerance[1] + _ROUNDING_SLACK
-        may_hold = np.zeros(len(middle), dtype=bool)
-        for pose in poses:
-            position_errors, is_possible = pose[:3, 3] - frames[:, -1, :3, 3], np.ones(len(middle), dtype=bool)
-            max_errors = max_translations
-            if rows.linear == "tool":
-                position_errors = np.einsum("nji,nj->ni", frames[:, -1, :3, :3], position_errors)
-                max_errors = max_translations + np.linalg.norm(position_errors, axis=1) * max_rotation
-            is_possible &= (
-                np.abs(position_errors @ linear_rows.T) <= np.linalg.norm(linear_rows, axis=1) * max_errors[:, None]
-            ).all(axis=1)
-            if full_orientation:
-                orientation_errors = rotation_vectors(pose[:3, :3] @ frames[:, -1, :3, :3].transpose(0, 2, 1))
-                is_possible &= np.linalg.norm(orientation_errors, axis=1) <= max_rotation
-            may_hold |= is_possible
-        return may_hold
-
-    return may_hold_pose
 
 
 def _bound_joints(space: FreeSpace, free: IndexArray) -> tuple[FloatArray, FloatArray, BoolArray] | None:

@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 from holdfast.core.typing import BoolArray, FloatArray
-from holdfast.response.recovery.proofs.flood import (
-    ConnectedCells,
-    find_confined_regions,
-    make_configuration_test,
-    make_pose_test,
-    prove_disconnected,
-)
+from holdfast.response.recovery.proofs.flood import ConnectedCells, find_confined_regions
 from holdfast.response.recovery.proofs.reach import EXACT_TOLERANCE, Tolerance, enumerate_configurations, make_blocked_boxes
 from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
-from holdfast.response.recovery.task_rows import TaskRows
 
 
 def prove_goal_disconnected(
     recovery: Recovery,
-    rows: TaskRows,
     space: FreeSpace,
     *,
     start: FloatArray,
@@ -30,7 +22,6 @@ def prove_goal_disconnected(
 
     Args:
         recovery: Recovery so far.
-        rows: Rows that must be met.
         space: Free space of the arm.
         start: (n,) start configuration, rad and m.
         known_goals: (K, n) configurations of the goal that were found and not reached.
@@ -38,13 +29,6 @@ def prove_goal_disconnected(
         q_goal: (n,) configuration that is the goal instead, if one is requested.
     """
     requested_tolerance = recovery.tolerance or EXACT_TOLERANCE
-    proof = prove_disconnected(
-        space,
-        start,
-        make_pose_test(space, rows, poses, requested_tolerance) if q_goal is None else make_configuration_test(space, q_goal),
-    )
-    if proof is not None:
-        return proof, True
     for flood in find_confined_regions(space, start, known_goals):
         for tolerance in dict.fromkeys((requested_tolerance, EXACT_TOLERANCE)):
             if q_goal is not None or all(_is_goal_outside_region(flood, recovery, pose, space, tolerance) for pose in poses):
