@@ -180,3 +180,28 @@ def test_a_pose_tilted_out_of_the_plane_is_refused_and_one_in_it_is_not(rng):
 def test_a_task_without_bounds_is_refused(panda):
     with pytest.raises(hf.TaskError, match="nothing can be proved about"):
         all_configurations(panda, np.eye(4), hf.model.arm.task.task_from_rows(["vx", "wy"], frame="tool"))
+
+
+def test_a_configuration_found_early_meets_the_pose_and_not_its_half_turn(panda, generator):
+    """The orientation rows also vanish at half a turn, where Newton's method may end; forward kinematics decides."""
+    rng = generator("half turns")
+    for _ in range(8):
+        q = rng.uniform(panda.lower, panda.upper)
+        pose = panda.forward_kinematics(q)
+        found = all_configurations(panda, pose, tolerance=1e-6, time_limit=60)
+        assert found.finding == SearchOutcome.SOME
+        np.testing.assert_allclose(panda.forward_kinematics(found.q[0]), pose, atol=1e-5)
+        assert found.boxes < 200_000
+
+
+def test_a_blocked_configuration_is_not_found(panda, generator):
+    """Everything on one side of the middle of joint 1 is blocked, so that the configuration found lies on the other side."""
+    rng, middle = generator("blocked side"), (panda.lower[0] + panda.upper[0]) / 2
+    for _ in range(6):
+        q = rng.uniform(panda.lower, panda.upper)
+        q[0] = rng.uniform(middle, panda.upper[0])
+        found = all_configurations(
+            panda, panda.forward_kinematics(q), tolerance=1e-6, time_limit=60, blocked=lambda c, h: c[:, 0] + h[:, 0] < middle
+        )
+        assert found.finding == SearchOutcome.SOME
+        assert found.q[0, 0] >= middle - 1e-5

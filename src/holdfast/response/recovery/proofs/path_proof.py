@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,10 +32,13 @@ from holdfast.response.recovery.space import FreeSpace
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
+TriedProofs = dict[tuple[str, int, Tolerance], Any]
+"""Results of proofs about a path by kind, sample and tolerance; a second search with exact distances does not change them."""
+
 _MAX_PROVED_POSES = 3  # poses of a path without a configuration for which a proof is tried
 
 
-def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, search: PoseSearch) -> Recovery:
+def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, search: PoseSearch, tried: TriedProofs) -> Recovery:
     """Return the recovery with a proof that the path cannot be followed, if there is one, and its validity within the
     tolerance.
 
@@ -44,31 +47,43 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         rest: Result along the path.
         path: Tool path.
         search: Solver of the rows that must be met, and the free space of the arm.
+        tried: Results of proofs about this path, which are extended.
     """
     solver, space = search.solver, search.space
     fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
     order = list(coarse_to_fine_indices(len(poses)))
     hardest_samples = [sample for sample in order if not is_reached[sample]][:_MAX_PROVED_POSES]
-    request, q_locked = (recovery.degraded, recovery.task), np.where(space.free, recovery.at, recovery.degraded.lo)
+    q_locked = np.where(space.free, recovery.at, recovery.degraded.lo)
     violations = ((sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample])) for sample in order)
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
     simple_proof = next(((sample, PoseProof(text)) for sample, text in chain(violations, reach_proofs) if text), None)
-    box_proofs = ((sample, enumerate_collision_free(recovery, search, poses[[sample]])[2][0]) for sample in hardest_samples)
+
+    def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
+        """Return the proof of one kind about a sample, or about all legs, unless it failed."""
+        proofs: dict[str, Callable[[], Any]] = {
+            "pose": lambda: enumerate_collision_free(recovery, search, poses[[sample]])[2][0],
+            "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
+            "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance),
+        }
+        key = kind, sample, tolerance
+        if key not in tried:
+            tried[key] = proofs[kind]()
+        return tried[key]
+
+    box_proofs = ((sample, prove("pose", sample)) for sample in hardest_samples)
     found_proof = simple_proof or next(((sample, proof) for sample, proof in box_proofs if proof is not None), None)
     if found_proof is None:
-        leg_proof = _prove_leg_impossible(*request, path, space)
+        leg_proof = prove("leg", 0)
         if leg_proof is None:
             return recovery
-        within = recovery.tolerance is not None and _prove_leg_impossible(*request, path, space, recovery.tolerance) is not None
+        within = recovery.tolerance is not None and prove("leg", 0, recovery.tolerance) is not None
         return replace(recovery, proof=leg_proof, proof_kind="disconnected", proved_within=within)
     proved_sample, proof = found_proof
     is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
     untried_samples = list(dict.fromkeys([proved_sample, *hardest_samples]))
     if simple_proof is None:
         untried_samples = hardest_samples[hardest_samples.index(proved_sample) + 1 :]
-    within = proof.holds_within_tolerance or any(
-        prove_within_tolerance(recovery, search, poses[sample]) is not None for sample in untried_samples
-    )
+    within = proof.holds_within_tolerance or any(prove("within", sample) is not None for sample in untried_samples)
     return replace(
         recovery,
         proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {proof.sentence}",
@@ -91,9 +106,7 @@ def coarse_to_fine_indices(count: int) -> Iterator[int]:
         parts *= 2
 
 
-def _prove_leg_impossible(
-    degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance = EXACT_TOLERANCE
-) -> str | None:
+def _prove_leg_impossible(degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance) -> str | None:
     """Prove that no continuous motion follows a straight leg of a tool path, and return the sentence; None if that fails.
 
     Each leg gets half of the remaining time.

@@ -104,7 +104,8 @@ def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatAr
     blocked, near_misses = make_blocked_boxes(space), search.find_near_misses(pose, recovery.at, tolerance, recovery.seed)
     if len(near_misses) and (blocked is None or not blocked(near_misses, np.zeros_like(near_misses)).all()):
         return None
-    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked, tolerance)
+    request = (recovery.degraded, recovery.task, pose)
+    solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked, tolerance, first=True)
     if solutions is None or not solutions.proved_empty:
         return None
     return prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
@@ -124,6 +125,7 @@ def enumerate_configurations(
     is_blocked: Blocked | None = None,
     tolerance: Tolerance = EXACT_TOLERANCE,
     max_boxes: int = MAX_BOXES,
+    first: bool = False,
 ) -> Configurations | None:
     """Enumerate the configurations of a pose (4, 4) within the limits in force; None if the list cannot be proved complete.
 
@@ -137,6 +139,7 @@ def enumerate_configurations(
         is_blocked: Test for blocked boxes. None: no test.
         tolerance: Allowed errors of the pose, m and rad.
         max_boxes: Number of boxes after which the search ends.
+        first: Stop at the first configuration.
     """
     if isinstance(failed_arm, Degraded):
         arm, limits = failed_arm.arm, (failed_arm.lo, failed_arm.hi)
@@ -155,7 +158,7 @@ def enumerate_configurations(
             limits=limits,
             tolerance=tolerance,
             most_boxes=max_boxes,
-            first=False,
+            first=first,
             blocked=is_blocked,
             **time_options,
         )
