@@ -59,11 +59,11 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
     simple_proof = next(((sample, PoseProof(text)) for sample, text in chain(violations, reach_proofs) if text), None)
 
     def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
-        """Return the proof of one kind about a sample, or about all legs, unless it failed."""
+        """Return the proof of one kind about a sample, or about all legs from ``sample``, unless it failed."""
         proofs: dict[str, Callable[[], Any]] = {
             "pose": lambda: enumerate_collision_free(recovery, search, poses[[sample]])[2][0],
             "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
-            "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance),
+            "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance, sample),
         }
         key = kind, sample, tolerance
         if key not in tried:
@@ -76,8 +76,9 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         leg_proof = prove("leg", 0)
         if leg_proof is None:
             return recovery
-        within = recovery.tolerance is not None and prove("leg", 0, recovery.tolerance) is not None
-        return replace(recovery, proof=leg_proof, proof_kind="disconnected", proved_within=within)
+        proved_leg, sentence = leg_proof
+        within = recovery.tolerance is not None and prove("leg", proved_leg, recovery.tolerance) is not None
+        return replace(recovery, proof=sentence, proof_kind="disconnected", proved_within=within)
     proved_sample, proof = found_proof
     is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
     untried_samples = list(dict.fromkeys([proved_sample, *hardest_samples]))
@@ -106,16 +107,18 @@ def coarse_to_fine_indices(count: int) -> Iterator[int]:
         parts *= 2
 
 
-def _prove_leg_impossible(degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance) -> str | None:
-    """Prove that no continuous motion follows a straight leg of a tool path, and return the sentence; None if that fails.
+def _prove_leg_impossible(
+    degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance, first_leg: int
+) -> tuple[int, str] | None:
+    """Prove that no continuous motion follows a straight leg of a tool path, and return the leg and the sentence, or None.
 
-    Each leg gets half of the remaining time.
+    Each leg from ``first_leg`` gets half of the remaining time.
     """
     limits = degraded.lo, degraded.hi
     if not np.isfinite(limits).all():  # unlimited joints connect ends that the boxes separate
         return None
     is_straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
-    for leg in np.flatnonzero(is_straight).tolist():
+    for leg in (leg for leg in np.flatnonzero(is_straight).tolist() if leg >= first_leg):
         try:
             box_count = prove_leg_impossible(
                 degraded.arm,
@@ -132,7 +135,7 @@ def _prove_leg_impossible(degraded: Degraded, task: Task, path: Path, space: Fre
             return None
         if box_count is not None:
             start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
-            return (
+            return leg, (
                 f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
                 f"poses: {box_count:,} boxes of joints that may contain a configuration do not connect its ends, up to "
                 "floating point"
