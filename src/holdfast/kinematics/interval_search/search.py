@@ -24,7 +24,7 @@ from holdfast.model.arm.task import Task, as_task, target_pose
 MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not bisected any more
 _MAX_SMALL_BOXES = 20_000  # undecided boxes of the smallest size, as around singular configurations
 _POLISHING_STEPS = 30
-_FIRST_REFINED_BOXES = 10_000  # checked boxes before solutions are first refined from large boxes, then after each doubling
+_FIRST_REFINED_BOXES = 2_000  # checked boxes before solutions are first refined from large boxes, then after each doubling
 _REFINED_BOXES = 64  # large boxes from which solutions are then refined
 _ISOLATION_SIZE = 1e-3  # rad and m: a provable solution in a box with smaller half widths counts as one configuration
 _LOOSE_TOLERANCE = 1e-4  # m and rad: an allowed error above this fills boxes of the smallest size

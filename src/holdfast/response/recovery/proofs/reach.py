@@ -96,16 +96,12 @@ def _enumerate_exact_pose(recovery: Recovery, search: PoseSearch, pose: FloatArr
 def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> str | None:
     """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance, and return the sentence, or None.
 
-    The search uses half of the remaining time. It is omitted if a configuration that nearly meets the pose is not blocked.
+    The search uses half of the remaining time, and ends at a configuration within the tolerance that is not blocked.
     """
-    tolerance, space = recovery.tolerance, search.space
-    if tolerance is None:
+    if recovery.tolerance is None:
         return None
-    blocked, near_misses = make_blocked_boxes(space), search.find_near_misses(pose, recovery.at, tolerance, recovery.seed)
-    if len(near_misses) and (blocked is None or not blocked(near_misses, np.zeros_like(near_misses)).all()):
-        return None
-    request = (recovery.degraded, recovery.task, pose)
-    solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked, tolerance, first=True)
+    blocked, time_limit, task = make_blocked_boxes(search.space), search.space.seconds_left / 2, recovery.task
+    solutions = enumerate_configurations(recovery.degraded, task, pose, time_limit, blocked, recovery.tolerance, first=True)
     if solutions is None or not solutions.proved_empty:
         return None
     return prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
