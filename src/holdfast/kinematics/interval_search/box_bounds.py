@@ -156,26 +156,21 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     errors, task_jacobian = ca.densify(ca.vertcat(*error)), ca.vertcat(*jacobian_rows)
     rho += [ca.sqrt(ca.sumsqr(leg_vector))] * is_along_leg
     rotates_tool += [False] * is_along_leg
-    linear_count, allowed_angle = len(parts.linear), ca.SX(0) if parts.orientation == "none" else tolerance[parts.m - 1]
-    # The angle whose sine it is at most.
-    allowed_angle = ca.if_else(allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi)
-    allowed_norms = []  # of the errors of the position rows, which all belong to the tool point, and of the orientation rows
-    if parts.linear:
-        allowed_norms.append(tolerance[0] + float(np.linalg.norm(offset) * np.linalg.norm(parts.linear, 2)) * allowed_angle)
-    if parts.orientation != "none":
-        allowed_norms.append(tolerance[parts.m - 1])
-    groups = [rows for rows in (range(linear_count), range(linear_count, parts.m)) if len(rows)]
+    linear_count, allowed_sine = len(parts.linear), ca.SX(0) if parts.orientation == "none" else tolerance[parts.m - 1]
+    allowed_angle = ca.if_else(allowed_sine < 0.9, allowed_sine + allowed_sine**3, np.pi)
+    allowed_norms = [allowed_sine] * parts.m
+    if parts.linear:  # of a point off the tool
+        point_distance = float(np.linalg.norm(offset) * np.linalg.norm(parts.linear, 2))
+        allowed_norms[:linear_count] = [tolerance[0] + point_distance * allowed_angle] * linear_count
 
     def bound_errors(directions: SX) -> SX:
         """Return the largest change of the errors along the rows of a matrix (K, m), other than by the Jacobian."""
         bound = ca.fabs(directions) @ ca.vertcat(*remainder)
-        for rows, allowed_norm in zip(groups, allowed_norms, strict=True):
-            bound += allowed_norm * ca.sqrt(ca.sum2(directions[:, list(rows)] ** 2))
+        for rows in filter(len, (range(linear_count), range(linear_count, parts.m))):
+            bound += allowed_norms[rows[0]] * ca.sqrt(ca.sum2(directions[:, list(rows)] ** 2))
         return bound
 
-    error_bounds = ca.vertcat(*remainder) + ca.vertcat(
-        *[allowed_norm for rows, allowed_norm in zip(groups, allowed_norms, strict=True) for _ in rows]
-    )
+    error_bounds = ca.vertcat(*remainder) + ca.vertcat(*allowed_norms)
     weighted = task_jacobian @ ca.diag(half_widths * half_widths)
     gram = weighted @ task_jacobian.T + ca.diag(error_bounds * error_bounds + _GRAM_REGULARIZATION)
     factor = Cholesky([[gram[i, k] for k in range(parts.m)] for i in range(parts.m)])

@@ -105,9 +105,7 @@ class BoxContractor:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self.kernel: Kernel = box_contraction_kernel(arm, parts, way is not None)
         counts = len(parts.linear), parts.m - len(parts.linear)
-        row_tolerances = np.repeat(
-            np.sqrt(np.maximum(counts, 1)) * tolerance, counts
-        )  # norms, which are the same in all frames
+        row_tolerances = np.repeat(np.sqrt(counts) * tolerance, counts)  # norms, which are the same in all frames
         self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))
         self._n, self._blocked = arm.n, blocked
         self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that is not searched but may block

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -129,34 +129,26 @@ class _SelfCollisionPair:
         name: Name of their first pair.
         columns: Indices of their pairs in the collision model.
         lipschitz_bounds: (K, n) largest change of each of K distances per rad or m of each joint.
-        links: Indices of both links; None if the distances are those of the pairs.
-        radii: (K,) sum of the radii of two balls within the links.
-        weights: (17, K) squared distance of their centers as a linear function of the pose of the first link in the second one.
+        balls: Indices of both links, (K,) sums of the radii of two balls within them, and (17, K) weights of the squared
+            distances of their centers (:func:`_squared_distance_weights`); None if the distances are those of the pairs.
     """
 
     name: str
     columns: list[int]
     lipschitz_bounds: FloatArray
-    links: tuple[int, int] | None = None
-    radii: FloatArray = field(default_factory=lambda: np.zeros(0))
-    weights: FloatArray = field(default_factory=lambda: np.zeros((17, 0)))
+    balls: tuple[int, int, FloatArray, FloatArray] | None = None
 
     def are_nearer(self, frames: FloatArray, pair_distances: FloatArray, max_distances: FloatArray) -> BoolArray:
         """Return (N,) True where a distance is below its maximum (N, K), from frames of links and distances of pairs (N, P)."""
-        if self.links is None:
+        if self.balls is None:
             return np.asarray((pair_distances[:, self.columns] < max_distances).any(axis=1))
-        first, second = (frames[:, link + 1] for link in self.links)
-        inverse_rotation = second[:, :3, :3].transpose(0, 2, 1)
-        rotation = inverse_rotation @ first[:, :3, :3]
-        position = (inverse_rotation @ (first[:, :3, 3] - second[:, :3, 3])[:, :, None])[:, :, 0]
-        features = [
-            rotation.reshape(-1, 9),
-            (position[:, None] @ rotation)[:, 0],
-            position,
-            np.square(position).sum(axis=1)[:, None],
-        ]
-        squared_distances = np.concatenate([*features, np.ones((len(frames), 1))], axis=1) @ self.weights
-        max_distances = max_distances + self.radii
+        first_link, second_link, radii, weights = self.balls
+        first, second = frames[:, first_link + 1], frames[:, second_link + 1]
+        rotation = second[:, :3, :3].transpose(0, 2, 1) @ first[:, :3, :3]
+        position = (first[:, None, :3, 3] - second[:, None, :3, 3]) @ second[:, :3, :3]
+        features = [rotation, position @ rotation, position, position @ position.transpose(0, 2, 1), np.ones((len(frames), 1))]
+        squared_distances = np.concatenate([part.reshape(len(frames), -1) for part in features], axis=1) @ weights
+        max_distances = max_distances + radii
         return np.asarray(((max_distances > 0) & (squared_distances < max_distances * max_distances)).any(axis=1))
 
 
@@ -189,8 +181,8 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
             links = parts[bodies[0][0]].link, parts[bodies[0][1]].link
             distances = np.linalg.norm([first_centers, second_centers], axis=2).T
             lipschitz_bounds = pair_lipschitz_bounds(arm, np.tile(links, (len(distances), 1)), distances, *limits)
-            weights, name = _squared_distance_weights(first_centers, second_centers), clearance.pair_names[columns[0]]
-            self_pairs.append(_SelfCollisionPair(name, columns, lipschitz_bounds, links, first_radii + second_radii, weights))
+            balls = (*links, first_radii + second_radii, _squared_distance_weights(first_centers, second_centers))
+            self_pairs.append(_SelfCollisionPair(clearance.pair_names[columns[0]], columns, lipschitz_bounds, balls))
     return self_pairs
 
 
