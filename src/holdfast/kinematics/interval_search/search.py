@@ -147,8 +147,8 @@ def all_configurations(
         finding=finding,
         q=search.solutions,
         boxes=contractor.checked,
-        open=search.undecided_count,
-        widest=search.widest_half_width,
+        open=len(search.open_boxes),
+        widest=float(search.open_boxes[:, 1].max(initial=0.0)),
         seconds=time.perf_counter() - start_time,
         blocked=contractor.blocked_count,
     )
@@ -185,18 +185,9 @@ class _BoxSearch:
         self.solutions = np.zeros((0, self._n))
 
     @property
-    def _open_boxes(self) -> FloatArray:
+    def open_boxes(self) -> FloatArray:
+        """Centers and half widths (K, 2, n) of the undecided boxes."""
         return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
-
-    @property
-    def undecided_count(self) -> int:
-        """Number of undecided boxes."""
-        return len(self._open_boxes)
-
-    @property
-    def widest_half_width(self) -> float:
-        """Half width of the widest undecided box."""
-        return float(self._open_boxes[:, 1].max(initial=0.0))
 
     def run(self, deadline: float, max_boxes: int, first: bool) -> SearchOutcome:
         """Search until all boxes are decided or a limit is reached."""

@@ -64,6 +64,6 @@ def _is_goal_outside_region(
             excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])
         return excluded
 
-    request, time_limit = (recovery.degraded, recovery.task, pose), space.seconds_left / 2
-    solutions = enumerate_configurations(*request, time_limit, is_excluded, tolerance, first=True)
+    request = (recovery.degraded, recovery.task, pose, space.seconds_left / 2)
+    solutions = enumerate_configurations(*request, is_excluded, tolerance, first=True)
     return solutions is not None and solutions.proved_empty
