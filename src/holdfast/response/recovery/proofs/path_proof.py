@@ -19,12 +19,11 @@ from holdfast.response.recovery.problem import describe_goal_violation
 from holdfast.response.recovery.proofs.reach import (
     EXACT_TOLERANCE,
     MAX_BOXES,
-    PoseProof,
     Tolerance,
-    enumerate_collision_free,
     make_blocked_boxes,
     prove_unreachable,
     prove_within_tolerance,
+    search_pose,
 )
 from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
@@ -56,13 +55,13 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
     q_locked = np.where(space.free, recovery.at, recovery.degraded.lo)
     violations = ((sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample])) for sample in order)
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
-    simple_proof = next(((sample, PoseProof(text)) for sample, text in chain(violations, reach_proofs) if text), None)
+    simple_proof = next(((sample, text) for sample, text in chain(violations, reach_proofs) if text), None)
 
     def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
         """Return the proof of one kind about a sample, or about all legs from ``sample``, unless it failed."""
         proofs: dict[str, Callable[[], Any]] = {
-            "pose": lambda: enumerate_collision_free(recovery, search, poses[[sample]])[2][0],
             "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
+            "pose": lambda: prove("within", sample) or search_pose(recovery, space, poses[sample])[1],
             "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance, sample),
         }
         key = kind, sample, tolerance
@@ -71,26 +70,22 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         return tried[key]
 
     box_proofs = ((sample, prove("pose", sample)) for sample in hardest_samples)
-    found_proof = simple_proof or next(((sample, proof) for sample, proof in box_proofs if proof is not None), None)
+    found_proof = simple_proof or next(((sample, text) for sample, text in box_proofs if text), None)
     if found_proof is None:
         leg_proof = prove("leg", 0)
         if leg_proof is None:
             return recovery
-        proved_leg, sentence = leg_proof
+        proved_leg, leg_sentence = leg_proof
         within = recovery.tolerance is not None and prove("leg", proved_leg, recovery.tolerance) is not None
-        return replace(recovery, proof=sentence, proof_kind="disconnected", proved_within=within)
-    proved_sample, proof = found_proof
+        return replace(recovery, proof=leg_sentence, proof_kind="disconnected", proved_within=within)
+    proved_sample, sentence = found_proof
     is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
-    untried_samples = list(dict.fromkeys([proved_sample, *hardest_samples]))
-    if simple_proof is None:
-        untried_samples = hardest_samples[hardest_samples.index(proved_sample) + 1 :]
-    within = proof.holds_within_tolerance or any(prove("within", sample) is not None for sample in untried_samples)
     return replace(
         recovery,
-        proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {proof.sentence}",
+        proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {sentence}",
         proof_kind="a pose of the path",
         proved_pose=None if is_violated else poses[proved_sample],
-        proved_within=within,
+        proved_within=any(prove("within", sample) for sample in (proved_sample, *hardest_samples)),
     )
 
 

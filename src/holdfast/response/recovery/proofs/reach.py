@@ -73,7 +73,7 @@ def enumerate_collision_free(
     space, configurations, proofs = search.space, list[FloatArray](), list[PoseProof | None]()
     for pose in poses:
         within_proof = prove_within_tolerance(recovery, search, pose)  # which includes the exact pose
-        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else _search_boxes(recovery, space, pose)
+        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else search_pose(recovery, space, pose)
         configurations.append(q[space.are_valid(q) & search.solver.is_inside_cone(q, pose)] if len(q) else q)
         proofs.append(PoseProof(within_proof, True) if within_proof else PoseProof(proof) if proof else None)
     return np.concatenate(configurations), np.repeat(np.arange(len(poses)), [len(q) for q in configurations]), proofs
@@ -86,10 +86,10 @@ def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatAr
     """
     if recovery.tolerance is None:
         return None
-    return _search_boxes(recovery, search.space, pose, recovery.tolerance, first=True)[1]
+    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True)[1]
 
 
-def _search_boxes(
+def search_pose(
     recovery: Recovery, space: FreeSpace, pose: FloatArray, tolerance: Tolerance = EXACT_TOLERANCE, first: bool = False
 ) -> tuple[FloatArray, str | None]:
     """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
