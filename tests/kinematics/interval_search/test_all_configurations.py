@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
@@ -108,6 +109,32 @@ def test_no_box_that_holds_a_configuration_is_called_empty_or_cut_past_it(panda,
     assert (far > 0).mean() > 0.9
 
 
+@pytest.mark.parametrize("task", ["pose", "pointing", "position"])
+def test_no_box_that_holds_a_configuration_within_the_tolerance_is_called_empty_or_cut_past_it(panda, task, rng):
+    """The pose is moved and turned by up to the allowed norms, in any direction."""
+    parts = BoundedTask.from_task(panda, as_task(panda, task))
+    kernel, count, allowed = box_contraction_kernel(panda, parts), 20_000, np.array([2e-3, 0.02])
+    q, half = rng.uniform(panda.lower, panda.upper, (count, 7)), 10 ** rng.uniform(-5, 0.5, (count, 7))
+    centre, poses = q + half * rng.uniform(-1, 1, half.shape), panda.forward_kinematics(q)
+    errors = rng.normal(size=(2, count, 3))
+    errors *= rng.choice([0.999, 0.5], (2, count, 1)) / np.linalg.norm(errors, axis=2, keepdims=True)
+    poses[:, :3, 3] += allowed[0] * errors[0]
+    poses[:, :3, :3] = Rotation.from_rotvec(np.arcsin(allowed[1]) * errors[1]).as_matrix() @ poses[:, :3, :3]
+    tolerance = np.repeat(allowed, [len(parts.linear), parts.m - len(parts.linear)])
+    margin, middle, radius, *_ = kernel(centre, half, poses[:, :3, 3], poses[:, :3, :3], tolerance)
+    assert margin.max() <= 0
+    assert (np.abs(q - middle) - radius).max() <= 1e-13
+
+
+def test_a_tolerance_is_the_same_in_all_directions():
+    arm, direction = hf.arms.load("planar-3r"), np.array([1.0, 1.0]) / np.sqrt(2)
+    limits = np.array([0.0, -np.pi, 0.0]), np.array([0.0, np.pi, 0.0])  # the tool on a circle of 2 m about (1, 0)
+    for point, is_proved in ((2.0009, True), (2.0006, False)):  # a tolerance of 0.5 mm of two rows allows 0.707 mm
+        for offset in (point * direction, np.array([0.0, point]), np.array([0.0, 4 - point])):
+            found = all_configurations(arm, offset + np.array([1.0, 0.0]), "planar", limits=limits, tolerance=5e-4)
+            assert found.proved_empty == is_proved
+
+
 def test_a_tolerance_is_part_of_the_proof():
     arm = hf.arms.load("planar-3r")
     limits = np.array([0.0, -np.pi, 0.0]), np.array([0.0, np.pi, 0.0])  # the tool on a circle of 2 m about (1, 0)
@@ -180,3 +207,30 @@ def test_a_pose_tilted_out_of_the_plane_is_refused_and_one_in_it_is_not(rng):
 def test_a_task_without_bounds_is_refused(panda):
     with pytest.raises(hf.TaskError, match="nothing can be proved about"):
         all_configurations(panda, np.eye(4), hf.model.arm.task.task_from_rows(["vx", "wy"], frame="tool"))
+
+
+def test_a_configuration_found_early_meets_the_pose_and_not_its_half_turn(panda, generator):
+    """The orientation rows also vanish at half a turn, where Newton's method may end; forward kinematics decides."""
+    rng = generator("half turns")
+    for _ in range(8):
+        q = rng.uniform(panda.lower, panda.upper)
+        pose = panda.forward_kinematics(q)
+        found = all_configurations(panda, pose, tolerance=1e-6, time_limit=60)
+        assert found.finding == SearchOutcome.SOME
+        np.testing.assert_allclose(panda.forward_kinematics(found.q[0]), pose, atol=1e-5)
+        assert found.boxes < 200_000
+
+
+def test_a_blocked_configuration_is_not_found(panda, generator):
+    """Everything on one side of the middle of joint 1 is blocked, so that the configuration found lies on the other side."""
+    rng, middle = generator("blocked side"), (panda.lower[0] + panda.upper[0]) / 2
+
+    def blocked(centre, half):  # large boxes are undecided, as in collisions
+        return (centre[:, 0] + half[:, 0] < middle) & (half.max(axis=1) < 1e-3)
+
+    for _ in range(6):
+        q = rng.uniform(panda.lower, panda.upper)
+        q[0] = rng.uniform(middle, panda.upper[0])
+        found = all_configurations(panda, panda.forward_kinematics(q), tolerance=1e-6, time_limit=60, blocked=blocked)
+        assert found.finding == SearchOutcome.SOME
+        assert found.q[0, 0] >= middle - 1e-5

@@ -11,6 +11,7 @@ import holdfast as hf
 import oracles
 from holdfast.response.recovery import attempt, continuation
 from holdfast.response.recovery.ladder_graph import LadderGraph
+from holdfast.response.recovery.proofs import path_proof, reach
 
 JUMP = 0.35
 
@@ -207,3 +208,44 @@ def test_no_motion_along_a_line_is_proved_and_what_may_be_missed_is_said():
         assert result.verdict.kind in ("a pose of the path", "disconnected")
         assert result.proved_within == within
         assert ("this also holds for misses" if within else "not proved for misses") in result.verdict.why
+
+
+def test_a_leg_after_others_is_proved_within_the_tolerance(monkeypatch):
+    """The line of the test above follows another leg, which ends at its beginning and is easy; no pose is proved here."""
+    monkeypatch.setattr(path_proof, "prove_within_tolerance", lambda *_: None)
+    monkeypatch.setattr(path_proof, "search_pose", lambda *_: (None, None))
+    arm = hf.arms.load("planar-3r")
+    corners = np.array([[-0.3, 1.2], [-0.3, 1.0002], [0.3, 1.0002]])
+    bend = np.arccos((corners[0] @ corners[0] - 5) / 4)
+    here = np.array([np.arctan2(*corners[0][::-1]) - np.arctan2(2 * np.sin(bend), 1 + 2 * np.cos(bend)), bend, 0.0])
+    poses = np.tile(np.eye(4), (3, 1, 1))
+    poses[:, :2, 3] = corners
+    path = hf.paths.sequence(poses)
+    for most, answer, within in ((3.1, "proved", True), (3.1232, "proved", False), (3.139, "solved", False)):
+        bad = hf.Degraded(arm, locked={"joint3": 0.0}, ranges={"joint2": (0.1, most)})
+        result = hf.recover(arm, bad, here, goal=None, path=path, task="planar", samples=0, tolerance=(1e-4, 1e-4))
+        assert result.verdict.answer.startswith(answer)
+        assert result.verdict.kind == ("disconnected" if answer == "proved" else "")
+        assert result.proved_within == within
+
+
+def test_a_second_search_with_exact_distances_repeats_no_proof_about_the_path(monkeypatch):
+    pytest.importorskip("coal")
+    arm, rng, poses = hf.arms.load("panda"), np.random.default_rng(5), []
+    search_boxes = reach.all_configurations
+
+    def count_searches(*request, **options):
+        poses.append((request[1].tobytes(), options["tolerance"]))
+        return search_boxes(*request, **options)
+
+    attempts = []
+    monkeypatch.setattr(reach, "all_configurations", count_searches)
+    monkeypatch.setattr(attempt, "follow_with_relaxed_rows", lambda rest, *_: attempts.append(rest) or (rest, []))
+    here = rng.uniform(arm.lower, arm.upper)
+    begin = arm.forward_kinematics(here)
+    end = begin.copy()
+    end[:3, 3] += [-0.2, 0.2, 0.1]
+    result = hf.recover(arm, ["panda_joint2"], here, goal=None, path=hf.paths.line(begin, end), samples=0)
+    assert result.verdict.kind == "a pose of the path"
+    assert len(attempts) == 2
+    assert len(poses) == len(set(poses)) > 0

@@ -16,7 +16,10 @@ from holdfast.model.arm.task import Task
 
 _BOX_WIDTHS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # rad and m: approximate sizes of the boxes that are joined
 _MAX_JOINED_BOXES = 20_000  # maximum number of boxes
-_MAX_NEIGHBOR_PAIRS = 10_000_000  # maximum number of touching pairs of boxes
+_MAX_GROWTH = 4  # ratio of the numbers of boxes of two sizes above which they fill a region that smaller ones hardly divide
+_MIN_JOINED_BOXES = 1000  # boxes of the larger size below which this ratio counts from this number
+_MAX_NEIGHBOR_PAIRS = 10_000_000  # approximate maximum number of pairs of boxes that may touch
+_COUNTED_BOXES = 200  # boxes from whose neighbors that number is estimated
 _CONTACT_TOLERANCE = 1e-12
 
 
@@ -65,26 +68,27 @@ def prove_leg_impossible(
     )
     weights = np.append(np.ones(arm.n), np.linalg.norm(leg_vector))
     open_boxes = np.stack([(contractor.low + contractor.high) / 2, (contractor.high - contractor.low) / 2])[None]
+    max_count = _MAX_JOINED_BOXES
     with report_work("halving boxes along the leg") as advance:
         for width in _BOX_WIDTHS:
-            small_boxes, stack = [open_boxes[:0]], [open_boxes]
+            small_boxes, stack, small_count = [open_boxes[:0]], [open_boxes], 0
             while stack:
-                if time.perf_counter() > deadline or contractor.checked >= most_boxes:
+                if time.perf_counter() > deadline or contractor.checked >= most_boxes or small_count > max_count:
                     return None
                 contracted = contractor.drop_blocked(contractor.contract(contractor.pop_batch(stack)))
                 advance(contractor.checked, most_boxes)
                 is_small = (2 * contracted.box[:, 1] * weights).max(axis=1, initial=0.0) < width
                 small_boxes.append(contracted.box[is_small])
+                small_count += int(is_small.sum())
                 halves = contracted[~is_small].bisect()
                 if len(halves):
                     stack.append(halves)
             open_boxes = np.concatenate(small_boxes)
-            if len(open_boxes) > _MAX_JOINED_BOXES:
-                return None
             chained = _connected_to_both_ends(open_boxes)
             if chained is None:
                 return None
             open_boxes = open_boxes[chained]
+            max_count = min(_MAX_JOINED_BOXES, _MAX_GROWTH * max(len(open_boxes), _MIN_JOINED_BOXES))
             if not len(open_boxes):
                 return contractor.checked
     return None
@@ -104,7 +108,9 @@ def _connected_to_both_ends(boxes: FloatArray) -> BoolArray | None:
     centers, half_widths = boxes[:, 0], boxes[:, 1]
     widest = half_widths.max(axis=0) + _CONTACT_TOLERANCE  # of each joint: touching boxes are at most this far apart
     tree, neighbor_distance = cKDTree(centers / widest), 2.0
-    if tree.count_neighbors(tree, neighbor_distance, p=np.inf) > _MAX_NEIGHBOR_PAIRS:
+    counted = centers[:: len(centers) // _COUNTED_BOXES + 1] / widest
+    neighbor_counts = tree.query_ball_point(counted, neighbor_distance, p=np.inf, return_length=True)
+    if neighbor_counts.mean() * len(centers) > 2 * _MAX_NEIGHBOR_PAIRS:
         return None
     first, second = tree.query_pairs(neighbor_distance, p=np.inf, output_type="ndarray").T
     for center_values, widths in zip(centers.T, half_widths.T, strict=True):  # joint by joint, because there are many pairs

@@ -16,12 +16,13 @@ of their values at c, row by row, plus a bound of the third derivatives.
   ``1/2 (D A' z_k) x z_l - (z_k . z_l) e`` with the axes as columns of A and D. The rows also vanish at half a turn, which no
   box with ``S`` below the angle error can contain: such boxes are empty.
 
-A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i``. Two directions are tried:
-the error's own, and ``v = (J h^2 J' + b^2)^-1 e(c)``, in which the error is largest relative to the extent of the box.
+A box is empty if in some direction v of the rows ``|v e(c)| > sum_k |v J_k| h_k + sum_i |v_i| b_i + t |v|`` with the allowed
+norm t of the errors, which differs for positions and orientations. Two directions are tried: the error's own, and
+``v = (J h^2 J' + (b + t)^2)^-1 e(c)``, in which the error is largest relative to the extent of the box.
 
 For every matrix Y the solutions in a box obey ``q - c = -Y e(c) + (I - Y J)(q - c) - Y r`` (Krawczyk 1969 in this form). The
-right side is a box again, with ``Y = h^2 J' (J h^2 J' + b^2)^-1``, and the part outside of it is cut away. If as many joints
-move as there are rows and the new box lies strictly inside, it contains a solution (Brouwer).
+right side is a box again, with ``Y = h^2 J' (J h^2 J' + (b + t)^2)^-1``, and the part outside of it is cut away. If as many
+joints move as there are rows and the new box lies strictly inside, it contains a solution (Brouwer).
 
 Source: interval Newton methods (Krawczyk 1969; Neumaier 1990); the bounds and the choice of Y and v are ours.
 """
@@ -104,10 +105,11 @@ class BoundedTask:
 def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = False) -> Kernel:
     """Build the kernel of an arm and a task's components, for a pose or, if ``is_along_leg``, for a straight leg of a path.
 
-    Inputs: centre (n,) and half widths (n,), rad and m; target position (3,) and orientation (3, 3); allowed error of each row
-    (m,). Outputs: ``margin``, above 0 for an empty box; centre (n,) and half widths (n,) of the contracted box; ``inside``,
-    below 0 if it lies strictly inside in the joints that move; its fraction of the volume; the joint to bisect; the vector from
-    the old to the new centre (n,); the rows' error at the centre (m,).
+    Inputs: centre (n,) and half widths (n,), rad and m; target position (3,) and orientation (3, 3); for each row (m,) the
+    allowed norm of the errors of all position rows, m, or of all orientation rows, rad. Outputs: ``margin``, above 0 for an
+    empty box; centre (n,) and half widths (n,) of the contracted box; ``inside``, below 0 if it lies strictly inside in the
+    joints that move; its fraction of the volume; the joint to bisect; the vector from the old to the new centre (n,); the rows'
+    error at the centre (m,).
 
     Along a leg the vector (3,), m, of the leg is one more input, and the position on it, 0 to 1, is one more joint: the last of
     the n joints.
@@ -154,34 +156,40 @@ def box_contraction_kernel(arm: Arm, parts: BoundedTask, is_along_leg: bool = Fa
     errors, task_jacobian = ca.densify(ca.vertcat(*error)), ca.vertcat(*jacobian_rows)
     rho += [ca.sqrt(ca.sumsqr(leg_vector))] * is_along_leg
     rotates_tool += [False] * is_along_leg
-    allowed_angle = ca.sqrt(ca.sumsqr(tolerance[len(parts.linear) :])) if parts.orientation != "none" else ca.SX(0)
-    # The angle whose sine it is at most.
-    allowed_angle = ca.if_else(allowed_angle < 0.9, allowed_angle + allowed_angle**3, np.pi)
-    # The tool misses a point beside it in both.
-    position_tolerance = tolerance[: len(parts.linear)] + float(np.linalg.norm(offset)) * allowed_angle
-    error_bounds = ca.vertcat(*remainder) + ca.vertcat(position_tolerance, tolerance[len(parts.linear) :])
+    linear_count, allowed_sine = len(parts.linear), ca.SX(0) if parts.orientation == "none" else tolerance[parts.m - 1]
+    allowed_angle = ca.if_else(allowed_sine < 0.9, allowed_sine + allowed_sine**3, np.pi)
+    allowed_norms = [allowed_sine] * parts.m
+    if parts.linear:  # of a point off the tool
+        point_distance = float(np.linalg.norm(offset) * np.linalg.norm(parts.linear, 2))
+        allowed_norms[:linear_count] = [tolerance[0] + point_distance * allowed_angle] * linear_count
+
+    def bound_errors(directions: SX) -> SX:
+        """Return the largest change of the errors along the rows of a matrix (K, m), other than by the Jacobian."""
+        bound = ca.fabs(directions) @ ca.vertcat(*remainder)
+        for rows in filter(len, (range(linear_count), range(linear_count, parts.m))):
+            bound += allowed_norms[rows[0]] * ca.sqrt(ca.sum2(directions[:, list(rows)] ** 2))
+        return bound
+
+    error_bounds = ca.vertcat(*remainder) + ca.vertcat(*allowed_norms)
     weighted = task_jacobian @ ca.diag(half_widths * half_widths)
     gram = weighted @ task_jacobian.T + ca.diag(error_bounds * error_bounds + _GRAM_REGULARIZATION)
     factor = Cholesky([[gram[i, k] for k in range(parts.m)] for i in range(parts.m)])
     direction = ca.vertcat(*factor.solve(ca.vertsplit(errors)))
-    tests = [
-        _error_beyond_bound(
-            direction / ca.sqrt(ca.sumsqr(direction) + _GRAM_REGULARIZATION), errors, task_jacobian, half_widths, error_bounds
-        )
-    ]
+    directions = [direction / ca.sqrt(ca.sumsqr(direction) + _GRAM_REGULARIZATION)]
+    tests = []
     if parts.linear:
-        k = len(parts.linear)
-        length = ca.sqrt(ca.sumsqr(errors[:k]) + _GRAM_REGULARIZATION)
-        position_direction = ca.vertcat(errors[:k] / length, ca.SX(parts.m - k, 1))
-        tests.append(_error_beyond_bound(position_direction, errors, task_jacobian, half_widths, error_bounds))
+        length = ca.sqrt(ca.sumsqr(errors[:linear_count]) + _GRAM_REGULARIZATION)
+        directions.append(ca.vertcat(errors[:linear_count] / length, ca.SX(parts.m - linear_count, 1)))
         travel_bound = sum((rho[i] * half_widths[i] for i in range(size)), ca.SX(0))
-        tests.append(length - travel_bound - ca.sqrt(ca.sumsqr(position_tolerance)))
+        tests.append(length - travel_bound - allowed_norms[0])
+    for v in directions:  # the error along v minus the bound of its change over the box
+        tests.append(ca.fabs(ca.dot(v, errors)) - ca.dot(ca.fabs(task_jacobian.T @ v), half_widths) - bound_errors(v.T))
     if cosine is not None:
         tests.append(ca.cos(ca.fmin(total_rotation + allowed_angle, np.pi)) - cosine)
     inverse = ca.horzcat(*[ca.vertcat(*factor.solve([ca.SX(float(i == k)) for i in range(parts.m)])) for k in range(parts.m)])
     gain = weighted.T @ inverse
     middle = -(gain @ errors)
-    radius = ca.fabs(ca.SX.eye(size) - gain @ task_jacobian) @ half_widths + ca.fabs(gain) @ error_bounds + ROUNDING_M_RAD
+    radius = ca.fabs(ca.SX.eye(size) - gain @ task_jacobian) @ half_widths + bound_errors(gain) + ROUNDING_M_RAD
     lower, upper = ca.fmax(middle - radius, -half_widths), ca.fmin(middle + radius, half_widths)
     margin = reduce(ca.fmax, [*tests, *ca.vertsplit(lower - upper)]) - ROUNDING_M_RAD
     new_half_widths = ca.fmax((upper - lower) / 2, 0)
@@ -319,8 +327,3 @@ def _orientation_terms(
         )
 
     return component_rows @ value, component_rows @ gradient, second_derivative, (ca.trace(error_rotation) - 1) / 2
-
-
-def _error_beyond_bound(v: SX, e: SX, j: SX, h: SX, b: SX) -> SX:
-    """Return the error along a direction minus the bound of its change over the box; a positive value excludes the box."""
-    return ca.fabs(ca.dot(v, e)) - ca.dot(ca.fabs(j.T @ v), h) - ca.dot(ca.fabs(v), b)

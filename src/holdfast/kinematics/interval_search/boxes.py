@@ -105,7 +105,7 @@ class BoxContractor:
                 raise TaskError(f"nothing can be proved about task '{task.name}': the pose is tilted out of the arm's plane")
         self.kernel: Kernel = box_contraction_kernel(arm, parts, way is not None)
         counts = len(parts.linear), parts.m - len(parts.linear)
-        row_tolerances = np.repeat(np.sqrt(np.maximum(counts, 1)) * tolerance, counts)  # other frames have no larger errors
+        row_tolerances = np.repeat(np.sqrt(counts) * tolerance, counts)  # norms, which are the same in all frames
         self.kernel_inputs = (pose[:3, 3], pose[:3, :3], row_tolerances, *([] if way is None else [way]))
         self._n, self._blocked = arm.n, blocked
         self._idle_half_width = np.zeros(arm.n)  # half widths of a joint that is not searched but may block
@@ -141,10 +141,14 @@ class BoxContractor:
             outputs[:, -1].astype(np.intp),
         )
 
+    def are_blocked(self, boxes: FloatArray) -> BoolArray:
+        """Return (N,) True for the blocked ones of boxes (N, 2, n)."""
+        if self._blocked is None or not len(boxes):
+            return np.zeros(len(boxes), dtype=bool)
+        return self._blocked(boxes[:, 0, : self._n], boxes[:, 1, : self._n] + self._idle_half_width)
+
     def drop_blocked(self, contracted: ContractedBoxes) -> ContractedBoxes:
         """Drop the boxes that are blocked."""
-        if self._blocked is None or not len(contracted.box):
-            return contracted
-        is_free = ~self._blocked(contracted.box[:, 0, : self._n], contracted.box[:, 1, : self._n] + self._idle_half_width)
+        is_free = ~self.are_blocked(contracted.box)
         self.blocked_count += len(is_free) - int(is_free.sum())
         return contracted if is_free.all() else contracted[is_free]

@@ -13,7 +13,7 @@ from holdfast.core.errors import InputError
 from holdfast.core.progress import report_work, reports_progress
 from holdfast.core.result import Result
 from holdfast.core.status import SentenceEnum
-from holdfast.core.typing import FloatArray
+from holdfast.core.typing import BoolArray, FloatArray
 from holdfast.core.validation import check_arguments
 from holdfast.kinematics.interval_search.box_bounds import ROUNDING_M_RAD
 from holdfast.kinematics.interval_search.boxes import Blocked, BoxContractor, ContractedBoxes
@@ -24,6 +24,8 @@ from holdfast.model.arm.task import Task, as_task, target_pose
 MIN_BOX_SIZE = 1e-6  # rad and m: a box no wider than this is not bisected any more
 _MAX_SMALL_BOXES = 20_000  # undecided boxes of the smallest size, as around singular configurations
 _POLISHING_STEPS = 30
+_FIRST_REFINED_BOXES = 2_000  # checked boxes before solutions are first refined from large boxes, then after each doubling
+_REFINED_BOXES = 64  # large boxes from which solutions are then refined
 _ISOLATION_SIZE = 1e-3  # rad and m: a provable solution in a box with smaller half widths counts as one configuration
 _LOOSE_TOLERANCE = 1e-4  # m and rad: an allowed error above this fills boxes of the smallest size
 _SOLUTION_TOLERANCE = 1e-5  # rad and m: closer solutions are the same one
@@ -145,8 +147,8 @@ def all_configurations(
         finding=finding,
         q=search.solutions,
         boxes=contractor.checked,
-        open=search.undecided_count,
-        widest=search.widest_half_width,
+        open=len(search.open_boxes),
+        widest=float(search.open_boxes[:, 1].max(initial=0.0)),
         seconds=time.perf_counter() - start_time,
         blocked=contractor.blocked_count,
     )
@@ -183,27 +185,22 @@ class _BoxSearch:
         self.solutions = np.zeros((0, self._n))
 
     @property
-    def _open_boxes(self) -> FloatArray:
+    def open_boxes(self) -> FloatArray:
+        """Centers and half widths (K, 2, n) of the undecided boxes."""
         return np.concatenate([*self._stack, *self._small_boxes, np.zeros((0, 2, self._n))])
-
-    @property
-    def undecided_count(self) -> int:
-        """Number of undecided boxes."""
-        return len(self._open_boxes)
-
-    @property
-    def widest_half_width(self) -> float:
-        """Half width of the widest undecided box."""
-        return float(self._open_boxes[:, 1].max(initial=0.0))
 
     def run(self, deadline: float, max_boxes: int, first: bool) -> SearchOutcome:
         """Search until all boxes are decided or a limit is reached."""
-        stops_at_first, contractor = first or self._is_redundant, self._boxes
+        stops_at_first, contractor, next_refinement = first or self._is_redundant, self._boxes, _FIRST_REFINED_BOXES
         with report_work("halving boxes of joints") as advance:
             while self._stack:
                 if time.perf_counter() > deadline or contractor.checked >= max_boxes:
                     return SearchOutcome.OPEN
-                self._process_boxes(contractor.contract(contractor.pop_batch(self._stack)))
+                contracted = contractor.contract(contractor.pop_batch(self._stack))
+                if stops_at_first and contractor.checked >= next_refinement:
+                    next_refinement = 2 * contractor.checked
+                    self._refine_centers(contracted.box[:, 0])
+                self._process_boxes(contracted)
                 advance(contractor.checked, max_boxes)
                 if stops_at_first and len(self.solutions):
                     return SearchOutcome.SOME
@@ -232,21 +229,32 @@ class _BoxSearch:
         if len(halves):
             self._stack.append(halves)
 
+    def _refine_centers(self, q: FloatArray) -> None:
+        """Add one solution that is not blocked, found by Newton's method from the best centers q (N, n) of boxes, if any."""
+        margins = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs, first=1)[:, 0]
+        refined, is_solution = self._apply_newton(q[np.argsort(margins, kind="stable")[:_REFINED_BOXES]])
+        solutions = np.stack([refined[is_solution], np.zeros_like(refined[is_solution])], axis=1)
+        self.solutions = np.concatenate([self.solutions, solutions[~self._boxes.are_blocked(solutions)][:1, 0]])
+
     def _refine_solutions(self, q: FloatArray, boxes: FloatArray) -> None:
         """Refine q (N, n) in boxes (N, 2, n) by Newton's method; a box without a solution stays open."""
-        start_half_width = np.where(self._free, 1e-4, 0.0)
-        for _ in range(_POLISHING_STEPS):
-            outputs = self._boxes.kernel.rows(q, np.broadcast_to(start_half_width, q.shape), *self._boxes.kernel_inputs)
-            step = outputs[:, 2 * self._n + 4 : 3 * self._n + 4]
-            q = np.clip(q + step, self._low, self._high)
-            if np.abs(step).max() < 1e-13:
-                break
-        errors = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs)[:, 3 * self._n + 4 :]
-        within_tolerance = (np.abs(errors) <= self._boxes.kernel_inputs[2] + ROUNDING_M_RAD).all(axis=1)
-        in_box = (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + MIN_BOX_SIZE).all(axis=1)
-        is_solution = in_box & within_tolerance
+        q, is_solution = self._apply_newton(q)
+        is_solution &= (np.abs(q - boxes[:, 0]) <= boxes[:, 1] + MIN_BOX_SIZE).all(axis=1)
         for solution in q[is_solution]:
             if not len(self.solutions) or np.abs(self.solutions - solution).max(axis=1).min() > _SOLUTION_TOLERANCE:
                 self.solutions = np.concatenate([self.solutions, solution[None]])
         if not is_solution.all():
             self._small_boxes.append(boxes[~is_solution])
+
+    def _apply_newton(self, q: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Apply Newton's method to q (N, n) within the limits; also return (N,) True for configurations within tolerance."""
+        start_half_width = np.where(self._free, max(1e-4, self._boxes.kernel_inputs[2].max()), 0.0)
+        for _ in range(_POLISHING_STEPS if len(q) else 0):
+            outputs = self._boxes.kernel.rows(q, np.broadcast_to(start_half_width, q.shape), *self._boxes.kernel_inputs)
+            step = outputs[:, 2 * self._n + 4 : 3 * self._n + 4]
+            q = np.clip(q + step, self._low, self._high)
+            if np.abs(step).max() < 1e-13:
+                break
+        outputs = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs)
+        is_near = (np.abs(outputs[:, 3 * self._n + 4 :]) <= self._boxes.kernel_inputs[2] + ROUNDING_M_RAD).all(axis=1)
+        return q, is_near & (outputs[:, 0] <= 0)  # orientation rows also vanish at half a turn, where the margin is above 0

@@ -21,7 +21,7 @@ from holdfast.response.recovery.continuation import (
 from holdfast.response.recovery.goals import PoseSearch, find_goal_configurations, find_relaxed_goals, name_blocking_pair
 from holdfast.response.recovery.ladder_graph import shorten_along_poses
 from holdfast.response.recovery.problem import LOCK_TOLERANCE, RecoveryGoal, describe_doubtful_contact, describe_goal_violation
-from holdfast.response.recovery.proofs.path_proof import prove_path_infeasible
+from holdfast.response.recovery.proofs.path_proof import TriedProofs, prove_path_infeasible
 from holdfast.response.recovery.proofs.reach import (
     ANY_ORIENTATION,
     PoseProof,
@@ -82,6 +82,7 @@ class RecoveryAttempt:
         relaxes_rows: True to search motions with relaxed rows if the whole goal is not met.
         rng: Random number generator.
         timing_limits: Accelerations (n,), rad/s^2 and m/s^2, and the period of the timed motion, s; None: no timed motion.
+        tried_proofs: Results of proofs about the tool path.
     """
 
     recovery: Recovery
@@ -90,6 +91,7 @@ class RecoveryAttempt:
     relaxes_rows: bool
     rng: np.random.Generator
     timing_limits: tuple[FloatArray, float] | None
+    tried_proofs: TriedProofs
     _motions: list[FloatArray] = field(default_factory=list, init=False)
     _legs: list[Leg] = field(default_factory=list, init=False)
     _stopped_at: str = field(default="", init=False)
@@ -142,7 +144,7 @@ class RecoveryAttempt:
         if not rest.finished:
             rest, motions = self._extend_path(rest, path, q_current)
         if not rest.finished:
-            self.recovery = prove_path_infeasible(self.recovery, rest, path, self.search)
+            self.recovery = prove_path_infeasible(self.recovery, rest, path, self.search, self.tried_proofs)
             shape_doubt, first_lost = describe_unknown_shape(self.search.space.clearance), rest.first_lost
             first_poses = path.pose(rest.share[:1] if first_lost is None else np.array([first_lost]))
             if shape_doubt and (

@@ -115,24 +115,6 @@ class PoseSearch:
         q = self.solve(starts, poses, row_masks)
         return np.asarray(q[self.are_valid(q, poses, row_masks)])
 
-    def find_near_misses(self, pose: FloatArray, q_start: FloatArray, tolerance: tuple[float, float], seed: int) -> FloatArray:
-        """Return configurations (K, n) within the limits that nearly meet a pose (4, 4); maybe none.
-
-        Args:
-            pose: (4, 4) pose of the end effector, m.
-            q_start: (n,) configuration with the values of the locked joints, rad and m.
-            tolerance: Largest root mean square of the errors of the linear rows, m, and of the angular rows, rad.
-            seed: Seed of the starts.
-        """
-        starts = self.sample_starts(q_start, _STARTS_PER_SET - 1, np.random.default_rng(seed))
-        poses, is_linear = np.repeat(pose[None], len(starts), axis=0), np.array(self.solver.rows.units) == "m"
-        weights = 1e-3 / np.maximum(np.where(is_linear, *tolerance), 1e-6)
-        q = self.solver.solve(starts, poses, np.tile(weights, (len(starts), 1)), self.space.free)
-        errors, is_near = self.solver.compute_errors(q, poses), self.space.are_within_limits(q)
-        for rows, allowed in zip((is_linear, ~is_linear), tolerance, strict=True):
-            is_near &= np.linalg.norm(errors[:, rows], axis=1) <= np.sqrt(rows.sum()) * allowed
-        return np.asarray(q[is_near])
-
 
 def find_goal_configurations(
     search: PoseSearch, pose: FloatArray, q_start: FloatArray, start_count: int, rng: np.random.Generator

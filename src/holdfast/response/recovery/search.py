@@ -25,6 +25,7 @@ from holdfast.model.failure_modes import Locked, degraded_at
 from holdfast.response.recovery.attempt import RecoveryAttempt
 from holdfast.response.recovery.goals import PoseSearch
 from holdfast.response.recovery.problem import check_recovery_options, choose_task, find_start_problem, parse_goal
+from holdfast.response.recovery.proofs.path_proof import TriedProofs
 from holdfast.response.recovery.proofs.reach import Tolerance
 from holdfast.response.recovery.recovery import Recovery, RecoveryOutcome
 from holdfast.response.recovery.space import FreeSpace, JointMetric, MetricName
@@ -202,10 +203,11 @@ def recover(
             relaxes_rows=relax,
             rng=rng,
             timing_limits=timing_limits,
+            tried_proofs=tried_proofs,
         )
         return attempt.run(standing, target, path)
 
-    began = monotonic()
+    began, tried_proofs = monotonic(), TriedProofs()
     return _retry_with_exact_distances(run_attempt(clearance_model), run_attempt, relax)
 
 

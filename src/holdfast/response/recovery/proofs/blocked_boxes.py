@@ -14,7 +14,6 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.model.arm import kinematics
 from holdfast.model.arm.configurations import sampling_limits
 from holdfast.model.arm.machine import ArmData
-from holdfast.model.arm.model import Arm
 from holdfast.model.collision.capsules import BASE_LINK
 from holdfast.model.collision.changes import pair_lipschitz_bounds
 from holdfast.model.collision.clearance import Clearance
@@ -68,17 +67,16 @@ class BlockedBoxes:
 
     def are_boxes_self_colliding(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked by the arm alone."""
-        is_blocked, pair_distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
+        is_blocked, near_pairs = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
+        near = np.flatnonzero((near_pairs < self._margin).any(axis=1))
+        near_pairs, frames = near_pairs[near], self._arm.frames(q[near])
         for pair in self._self_pairs:
-            indices = np.flatnonzero(~is_blocked & (pair_distances[:, pair.columns].min(axis=1) < self._margin))
+            indices = np.flatnonzero((near_pairs[:, pair.columns].min(axis=1) < self._margin) & ~is_blocked[near])
             if not indices.size:
                 continue
-            upper_bounds = (
-                pair.measure_distances(self._arm, q[indices], pair_distances[indices])
-                + half_widths[indices] @ pair.lipschitz_bounds.T
-            )
-            is_deep = (upper_bounds < self._margin - _CONTACT_TOLERANCE_M).any(axis=1)
-            is_blocked[indices] = is_deep
+            max_distances = self._margin - _CONTACT_TOLERANCE_M - half_widths[near[indices]] @ pair.lipschitz_bounds.T
+            is_deep = pair.are_nearer(frames[indices], near_pairs[indices], max_distances)
+            is_blocked[near[indices]] = is_deep
             if is_deep.any():
                 self._blockers.add(pair.name)
         return is_blocked
@@ -131,30 +129,34 @@ class _SelfCollisionPair:
         name: Name of their first pair.
         columns: Indices of their pairs in the collision model.
         lipschitz_bounds: (K, n) largest change of each of K distances per rad or m of each joint.
-        balls: Indices of both links, and for both together (K, 3) centres in their frames and (K,) radii of balls within them;
-            None if the distances are those of the pairs.
+        balls: Indices of both links, (K,) sums of the radii of two balls within them, and (17, K) weights of the squared
+            distances of their centers (:func:`_squared_distance_weights`); None if the distances are those of the pairs.
     """
 
     name: str
     columns: list[int]
     lipschitz_bounds: FloatArray
-    balls: tuple[int, int, FloatArray, FloatArray, FloatArray] | None = None
+    balls: tuple[int, int, FloatArray, FloatArray] | None = None
 
-    def measure_distances(self, arm: Arm, q: FloatArray, pair_distances: FloatArray) -> FloatArray:
-        """Return distances (N, K) at q (N, n), from those of all pairs (N, P)."""
+    def are_nearer(self, frames: FloatArray, pair_distances: FloatArray, max_distances: FloatArray) -> BoolArray:
+        """Return (N,) True where a distance is below its maximum (N, K), from frames of links and distances of pairs (N, P)."""
         if self.balls is None:
-            return pair_distances[:, self.columns]
-        first_link, second_link, first_centers, second_centers, radii = self.balls
-        frames = arm.frames(q)
-        (first_position, first_rotation), (second_position, second_rotation) = (
-            (frames[:, link + 1, :3, 3], frames[:, link + 1, :3, :3]) for link in (first_link, second_link)
-        )
-        offsets = (
-            (first_position - second_position)[:, None]
-            + first_centers @ first_rotation.transpose(0, 2, 1)
-            - second_centers @ second_rotation.transpose(0, 2, 1)
-        )
-        return np.asarray(np.linalg.norm(offsets, axis=2) - radii)
+            return np.asarray((pair_distances[:, self.columns] < max_distances).any(axis=1))
+        first_link, second_link, radii, weights = self.balls
+        first, second = frames[:, first_link + 1], frames[:, second_link + 1]
+        rotation = second[:, :3, :3].transpose(0, 2, 1) @ first[:, :3, :3]
+        position = (first[:, None, :3, 3] - second[:, None, :3, 3]) @ second[:, :3, :3]
+        features = [rotation, position @ rotation, position, position @ position.transpose(0, 2, 1), np.ones((len(frames), 1))]
+        squared_distances = np.concatenate([part.reshape(len(frames), -1) for part in features], axis=1) @ weights
+        max_distances = max_distances + radii
+        return np.asarray(((max_distances > 0) & (squared_distances < max_distances * max_distances)).any(axis=1))
+
+
+def _squared_distance_weights(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the weights (17, K) of ``|R a + t - b|^2`` for a, b (K, 3): of R, R't, t, |t|^2, and 1."""
+    products = -2 * second[:, :, None] * first[:, None, :]
+    constant = np.square(first).sum(axis=1) + np.square(second).sum(axis=1)
+    return np.concatenate([products.reshape(-1, 9).T, 2 * first.T, -2 * second.T, np.ones((1, len(first))), constant[None]])
 
 
 def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]) -> list[_SelfCollisionPair]:
@@ -179,7 +181,7 @@ def _find_self_pairs(clearance: Clearance, limits: tuple[FloatArray, FloatArray]
             links = parts[bodies[0][0]].link, parts[bodies[0][1]].link
             distances = np.linalg.norm([first_centers, second_centers], axis=2).T
             lipschitz_bounds = pair_lipschitz_bounds(arm, np.tile(links, (len(distances), 1)), distances, *limits)
-            balls = (*links, first_centers, second_centers, first_radii + second_radii)
+            balls = (*links, first_radii + second_radii, _squared_distance_weights(first_centers, second_centers))
             self_pairs.append(_SelfCollisionPair(clearance.pair_names[columns[0]], columns, lipschitz_bounds, balls))
     return self_pairs
 

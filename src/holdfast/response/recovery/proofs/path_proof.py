@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,12 +19,11 @@ from holdfast.response.recovery.problem import describe_goal_violation
 from holdfast.response.recovery.proofs.reach import (
     EXACT_TOLERANCE,
     MAX_BOXES,
-    PoseProof,
     Tolerance,
-    enumerate_collision_free,
     make_blocked_boxes,
     prove_unreachable,
     prove_within_tolerance,
+    search_pose,
 )
 from holdfast.response.recovery.recovery import Recovery
 from holdfast.response.recovery.space import FreeSpace
@@ -32,10 +31,13 @@ from holdfast.response.recovery.space import FreeSpace
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
+TriedProofs = dict[tuple[str, int, Tolerance], Any]
+"""Results of proofs about a path by kind, sample and tolerance; a second search with exact distances does not change them."""
+
 _MAX_PROVED_POSES = 3  # poses of a path without a configuration for which a proof is tried
 
 
-def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, search: PoseSearch) -> Recovery:
+def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, search: PoseSearch, tried: TriedProofs) -> Recovery:
     """Return the recovery with a proof that the path cannot be followed, if there is one, and its validity within the
     tolerance.
 
@@ -44,37 +46,46 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         rest: Result along the path.
         path: Tool path.
         search: Solver of the rows that must be met, and the free space of the arm.
+        tried: Results of proofs about this path, which are extended.
     """
     solver, space = search.solver, search.space
     fractions, is_reached, poses = rest.share, rest.found, path.pose(rest.share)
     order = list(coarse_to_fine_indices(len(poses)))
     hardest_samples = [sample for sample in order if not is_reached[sample]][:_MAX_PROVED_POSES]
-    request, q_locked = (recovery.degraded, recovery.task), np.where(space.free, recovery.at, recovery.degraded.lo)
+    q_locked = np.where(space.free, recovery.at, recovery.degraded.lo)
     violations = ((sample, describe_goal_violation(recovery.keep, solver.rows, poses[sample])) for sample in order)
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
-    simple_proof = next(((sample, PoseProof(text)) for sample, text in chain(violations, reach_proofs) if text), None)
-    box_proofs = ((sample, enumerate_collision_free(recovery, search, poses[[sample]])[2][0]) for sample in hardest_samples)
-    found_proof = simple_proof or next(((sample, proof) for sample, proof in box_proofs if proof is not None), None)
+    simple_proof = next(((sample, text) for sample, text in chain(violations, reach_proofs) if text), None)
+
+    def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
+        """Return the proof of one kind about a sample, or about all legs from ``sample``, unless it failed."""
+        proofs: dict[str, Callable[[], Any]] = {
+            "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
+            "pose": lambda: prove("within", sample) or search_pose(recovery, space, poses[sample])[1],
+            "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance, sample),
+        }
+        key = kind, sample, tolerance
+        if key not in tried:
+            tried[key] = proofs[kind]()
+        return tried[key]
+
+    box_proofs = ((sample, prove("pose", sample)) for sample in hardest_samples)
+    found_proof = simple_proof or next(((sample, text) for sample, text in box_proofs if text), None)
     if found_proof is None:
-        leg_proof = _prove_leg_impossible(*request, path, space)
+        leg_proof = prove("leg", 0)
         if leg_proof is None:
             return recovery
-        within = recovery.tolerance is not None and _prove_leg_impossible(*request, path, space, recovery.tolerance) is not None
-        return replace(recovery, proof=leg_proof, proof_kind="disconnected", proved_within=within)
-    proved_sample, proof = found_proof
+        proved_leg, leg_sentence = leg_proof
+        within = recovery.tolerance is not None and prove("leg", proved_leg, recovery.tolerance) is not None
+        return replace(recovery, proof=leg_sentence, proof_kind="disconnected", proved_within=within)
+    proved_sample, sentence = found_proof
     is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
-    untried_samples = list(dict.fromkeys([proved_sample, *hardest_samples]))
-    if simple_proof is None:
-        untried_samples = hardest_samples[hardest_samples.index(proved_sample) + 1 :]
-    within = proof.holds_within_tolerance or any(
-        prove_within_tolerance(recovery, search, poses[sample]) is not None for sample in untried_samples
-    )
     return replace(
         recovery,
-        proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {proof.sentence}",
+        proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {sentence}",
         proof_kind="a pose of the path",
         proved_pose=None if is_violated else poses[proved_sample],
-        proved_within=within,
+        proved_within=any(prove("within", sample) for sample in (proved_sample, *hardest_samples)),
     )
 
 
@@ -92,17 +103,17 @@ def coarse_to_fine_indices(count: int) -> Iterator[int]:
 
 
 def _prove_leg_impossible(
-    degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance = EXACT_TOLERANCE
-) -> str | None:
-    """Prove that no continuous motion follows a straight leg of a tool path, and return the sentence; None if that fails.
+    degraded: Degraded, task: Task, path: Path, space: FreeSpace, tolerance: Tolerance, first_leg: int
+) -> tuple[int, str] | None:
+    """Prove that no continuous motion follows a straight leg of a tool path, and return the leg and the sentence, or None.
 
-    Each leg gets half of the remaining time.
+    Each leg from ``first_leg`` gets half of the remaining time.
     """
     limits = degraded.lo, degraded.hi
     if not np.isfinite(limits).all():  # unlimited joints connect ends that the boxes separate
         return None
     is_straight = path.shift.any(axis=1) & ~path.sweep.any(axis=1) & ~path.turn.any(axis=1)
-    for leg in np.flatnonzero(is_straight).tolist():
+    for leg in (leg for leg in np.flatnonzero(is_straight).tolist() if leg >= first_leg):
         try:
             box_count = prove_leg_impossible(
                 degraded.arm,
@@ -119,7 +130,7 @@ def _prove_leg_impossible(
             return None
         if box_count is not None:
             start_percent, end_percent = 100 * path.bounds[leg : leg + 2]
-            return (
+            return leg, (
                 f"from {start_percent:.4g} to {end_percent:.4g} % of the tool path no continuous motion leads through its "
                 f"poses: {box_count:,} boxes of joints that may contain a configuration do not connect its ends, up to "
                 "floating point"

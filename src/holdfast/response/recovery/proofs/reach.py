@@ -23,7 +23,6 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import RowSolver
 
 MAX_BOXES = 8_000_000  # about 3 s; a number and not a time, so that the same seed gives the same result
-_MAX_PLAIN_BOXES = 1_500_000  # about 0.5 s, without the test for blocked boxes
 _RELATIVE_SLACK = 1e-9  # of the arm's length: rounding error of the bounds
 Tolerance = tuple[float, float]
 ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
@@ -74,40 +73,30 @@ def enumerate_collision_free(
     space, configurations, proofs = search.space, list[FloatArray](), list[PoseProof | None]()
     for pose in poses:
         within_proof = prove_within_tolerance(recovery, search, pose)  # which includes the exact pose
-        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else _enumerate_exact_pose(recovery, search, pose)
+        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else search_pose(recovery, space, pose)
         configurations.append(q[space.are_valid(q) & search.solver.is_inside_cone(q, pose)] if len(q) else q)
         proofs.append(PoseProof(within_proof, True) if within_proof else PoseProof(proof) if proof else None)
     return np.concatenate(configurations), np.repeat(np.arange(len(poses)), [len(q) for q in configurations]), proofs
 
 
-def _enumerate_exact_pose(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> tuple[FloatArray, str | None]:
-    """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
-    request, space, blocked, solutions = (recovery.degraded, recovery.task, pose), search.space, None, None
-    # Isolated configurations are few, and to check them takes less time than to exclude boxes in contact.
-    if int(space.free.sum()) <= search.solver.rows.m:
-        solutions = enumerate_configurations(*request, space.seconds_left / 2, max_boxes=_MAX_PLAIN_BOXES)
-    if solutions is None or solutions.finding == SearchOutcome.OPEN:
-        blocked = make_blocked_boxes(space)
-        solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked)
-    proof = prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
-    return np.zeros((0, recovery.arm.n)) if solutions is None else solutions.q, proof
-
-
 def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> str | None:
     """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance, and return the sentence, or None.
 
-    The search uses half of the remaining time. It is omitted if a configuration that nearly meets the pose is not blocked.
+    The search uses half of the remaining time, and ends at a configuration within the tolerance that is not blocked.
     """
-    tolerance, space = recovery.tolerance, search.space
-    if tolerance is None:
+    if recovery.tolerance is None:
         return None
-    blocked, near_misses = make_blocked_boxes(space), search.find_near_misses(pose, recovery.at, tolerance, recovery.seed)
-    if len(near_misses) and (blocked is None or not blocked(near_misses, np.zeros_like(near_misses)).all()):
-        return None
-    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, blocked, tolerance)
-    if solutions is None or not solutions.proved_empty:
-        return None
-    return prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
+    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True)[1]
+
+
+def search_pose(
+    recovery: Recovery, space: FreeSpace, pose: FloatArray, tolerance: Tolerance = EXACT_TOLERANCE, first: bool = False
+) -> tuple[FloatArray, str | None]:
+    """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
+    blocked, request = make_blocked_boxes(space), (recovery.degraded, recovery.task, pose)
+    solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked, tolerance, first)
+    proof = prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
+    return np.zeros((0, recovery.arm.n)) if solutions is None else solutions.q, proof
 
 
 def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
@@ -123,7 +112,7 @@ def enumerate_configurations(
     time_limit: float,
     is_blocked: Blocked | None = None,
     tolerance: Tolerance = EXACT_TOLERANCE,
-    max_boxes: int = MAX_BOXES,
+    first: bool = False,
 ) -> Configurations | None:
     """Enumerate the configurations of a pose (4, 4) within the limits in force; None if the list cannot be proved complete.
 
@@ -136,7 +125,7 @@ def enumerate_configurations(
         time_limit: Time limit, s.
         is_blocked: Test for blocked boxes. None: no test.
         tolerance: Allowed errors of the pose, m and rad.
-        max_boxes: Number of boxes after which the search ends.
+        first: Stop at the first configuration.
     """
     if isinstance(failed_arm, Degraded):
         arm, limits = failed_arm.arm, (failed_arm.lo, failed_arm.hi)
@@ -146,7 +135,6 @@ def enumerate_configurations(
     is_enumerable = np.isfinite(limits).all(axis=0) | (np.isinf(limits).all(axis=0) & ~arm.prismatic)
     if not is_enumerable.all() or not time_limit > 0:
         return None
-    time_options = {} if np.isinf(time_limit) else {"time_limit": time_limit}
     try:
         return all_configurations(
             arm,
@@ -154,10 +142,10 @@ def enumerate_configurations(
             task,
             limits=limits,
             tolerance=tolerance,
-            most_boxes=max_boxes,
-            first=False,
+            most_boxes=MAX_BOXES,
+            first=first,
+            time_limit=time_limit,
             blocked=is_blocked,
-            **time_options,
         )
     except TaskError:
         return None

@@ -48,5 +48,6 @@ def _is_goal_outside_region(
             excluded[~excluded] = blocked_boxes(middle[~excluded], half_widths[~excluded])
         return excluded
 
-    solutions = enumerate_configurations(recovery.degraded, recovery.task, pose, space.seconds_left / 2, is_excluded, tolerance)
+    request = (recovery.degraded, recovery.task, pose, space.seconds_left / 2)
+    solutions = enumerate_configurations(*request, is_excluded, tolerance, first=True)
     return solutions is not None and solutions.proved_empty
