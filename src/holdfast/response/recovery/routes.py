@@ -60,6 +60,7 @@ def find_route(
     *,
     max_failures: int | None = None,
     max_rounds: int = MAX_ROUNDS,
+    is_shortened: bool = True,
 ) -> Route | None:
     """Return the shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be valid.
 
@@ -68,7 +69,7 @@ def find_route(
     the results are shortened. With constraints, every line is an extension along them (:meth:`FreeSpace.extend_paths`), as in
     CBiRRT (Berenson, Srinivasa, Ferguson and Kuffner 2009). If a tree is exhausted twice without a route,
     :attr:`FreeSpace.closed_in` is its end. The search stops after ``max_failures`` failed searches, if given. Searches that are
-    not compiled end after ``max_rounds`` rounds.
+    not compiled end after ``max_rounds`` rounds. If only reachability matters, the route need not be shortened.
     """
     goals = start + space.shortest_difference(goals, start)
     direct_lengths = metric.measure_length(goals - start)
@@ -86,7 +87,7 @@ def find_route(
         candidates = [(np.concatenate([start[None], extensions[goal]]), goal) for goal in np.flatnonzero(has_arrived).tolist()]
         if candidates:
             q, goal = min(candidates, key=lambda candidate: float(metric.cumulative_length(candidate[0])[-1]))
-            q = shorten_path(space, metric, q, rng)
+            q = shorten_path(space, metric, q, rng) if is_shortened else q
             best_route = Route(q, float(metric.cumulative_length(q)[-1]), lower_bound, goal, False)
     for _ in track("searches for a route", range(search_count), most=True):
         length = np.inf if best_route is None else best_route.length
@@ -110,13 +111,13 @@ def find_route(
             failure_count += 1
             continue
         q, goal = connection
-        if not is_short:
+        if is_shortened and not is_short:
             q = shorten_path(space, metric, q, rng)
         new_length = float(metric.cumulative_length(q)[-1])
         if new_length < length:
             best_route = Route(q, new_length, lower_bound, int(closer_goals[goal]), len(q) == 2)
     space.closed_in = ""
-    if best_route is not None and not best_route.straight and compiled_search is not None:
+    if is_shortened and best_route is not None and not best_route.straight and compiled_search is not None:
         q = _shorten_compiled(compiled_search, space, best_route.q, rng)
         best_route = replace(best_route, q=q, length=float(metric.cumulative_length(q)[-1]), straight=len(q) == 2)
     return best_route
@@ -137,7 +138,9 @@ def find_reachable_goals(
             is_new = np.zeros_like(is_reached)
             is_new[unreached] = space.extend_paths(metric, sources, goals[unreached] - sources)[1]
             is_reached |= is_new
-        route = None if is_reached.all() or space.is_time_over else find_route(space, metric, start, goals[~is_reached], 1, rng)
+        if is_reached.all() or space.is_time_over:
+            break
+        route = find_route(space, metric, start, goals[~is_reached], 1, rng, is_shortened=False)
         if route is None:
             break
         is_reached[np.flatnonzero(~is_reached)[route.goal]] = True
