@@ -23,6 +23,7 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import RowSolver
 
 MAX_BOXES = 8_000_000  # about 3 s; a number and not a time, so that the same seed gives the same result
+_TIME_SHARE_WITHIN = 1 / 8  # of the remaining time, for a proof within the tolerance, which is tried before the exact one
 _RELATIVE_SLACK = 1e-9  # of the arm's length: rounding error of the bounds
 Tolerance = tuple[float, float]
 ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
@@ -64,7 +65,7 @@ class PoseProof(NamedTuple):
 def enumerate_collision_free(
     recovery: Recovery, search: PoseSearch, poses: FloatArray
 ) -> tuple[FloatArray, IndexArray, list[PoseProof | None]]:
-    """Enumerate the collision-free configurations of poses (G, 4, 4), each search in half of the remaining time.
+    """Enumerate the collision-free configurations of poses (G, 4, 4), in a part of the remaining time.
 
     Returns:
         Configurations (K, n), the pose (K,) of each, and for each pose the proof that it has none, if there is one. A proof
@@ -82,19 +83,25 @@ def enumerate_collision_free(
 def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> str | None:
     """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance, and return the sentence, or None.
 
-    The search uses half of the remaining time, and ends at a configuration within the tolerance that is not blocked.
+    The search ends at a configuration within the tolerance that is not blocked.
     """
     if recovery.tolerance is None:
         return None
-    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True)[1]
+    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True, time_share=_TIME_SHARE_WITHIN)[1]
 
 
 def search_pose(
-    recovery: Recovery, space: FreeSpace, pose: FloatArray, tolerance: Tolerance = EXACT_TOLERANCE, first: bool = False
+    recovery: Recovery,
+    space: FreeSpace,
+    pose: FloatArray,
+    tolerance: Tolerance = EXACT_TOLERANCE,
+    *,
+    first: bool = False,
+    time_share: float = 0.5,
 ) -> tuple[FloatArray, str | None]:
     """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
     blocked, request = make_blocked_boxes(space), (recovery.degraded, recovery.task, pose)
-    solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked, tolerance, first)
+    solutions = enumerate_configurations(*request, space.seconds_left * time_share, blocked, tolerance, first)
     proof = prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
     return np.zeros((0, recovery.arm.n)) if solutions is None else solutions.q, proof
 
