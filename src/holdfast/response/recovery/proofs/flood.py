@@ -3,7 +3,8 @@
 A cell is a box of joints. It is certainly blocked if a ball within a link, at the middle of the cell, is deeper in an object
 than it can move within the cell, if the same is true of two links, or if a constraint is violated by more than it can change.
 Other cells may be free. If those that are connected to the start through their faces contain no configuration of the goal, no
-motion leads to it, because at a corner every cell around it is blocked or none is. Otherwise the cells are bisected.
+motion leads to it: a motion through a corner is free there, so none of the cells at this corner is blocked, and they are
+connected through faces. Otherwise the cells are bisected.
 
 A few of many joints suffice where these alone decide which cells are blocked, for example an elbow that is caught between two
 objects for every angle of the wrist, or a gripper next to a forearm. The other joints may have any value within their limits.
@@ -14,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice, product
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,9 +25,6 @@ from holdfast.kinematics.solvers import joint_space
 from holdfast.model.collision.clearance import Clearance
 from holdfast.response.recovery.proofs.blocked_cells import BlockedCells
 from holdfast.response.recovery.space import FreeSpace
-
-if TYPE_CHECKING:
-    pass
 
 _MAX_JOINTS = 3  # largest number of moving joints
 _INITIAL_CELLS_PER_JOINT = 8  # cells of each joint at first
@@ -54,17 +51,17 @@ def find_confined_regions(space: FreeSpace, start: FloatArray, known_goals: Floa
     attempts: list[tuple[IndexArray, Blocked, int]] = []
     if len(joints) <= _MAX_JOINTS:
         attempts.append((joints, blocked, _MAX_CELLS[len(joints)]))
-    elif space.manifold is not None:
-        constrained_joints = np.flatnonzero(space.manifold.changing_joints)
+    else:
+        constrained_joints = joints[:0] if space.manifold is None else np.flatnonzero(space.manifold.changing_joints)
         if 0 < len(constrained_joints) <= _MAX_CONSTRAINED_JOINTS:
             attempts.append((constrained_joints, blocked.are_blocked_without_objects, _MAX_CONSTRAINED_CELLS))
-    if len(joints) > _MAX_JOINTS and space.clearance is not None and blocked.self_blocked is not None:
-        attempts += [
-            (flood_joints, blocked.self_blocked.are_boxes_self_colliding, _MAX_CONFINED_CELLS)
-            for flood_joints in _joint_sets_between_links(space.clearance, joints)
-        ]
-        first_joints = joints[:_MAX_CONFINED_JOINTS]
-        attempts.append((first_joints, blocked.restrict_to_joints(first_joints), _MAX_CONFINED_CELLS))
+        if space.clearance is not None and blocked.self_blocked is not None:
+            attempts += [
+                (flood_joints, blocked.self_blocked.are_boxes_self_colliding, _MAX_CONFINED_CELLS)
+                for flood_joints in _joint_sets_between_links(space.clearance, joints)
+            ]
+            first_joints = joints[:_MAX_CONFINED_JOINTS]
+            attempts.append((first_joints, blocked.restrict_to_joints(first_joints), _MAX_CONFINED_CELLS))
     for flood_joints, is_blocked, max_cells in attempts:
         floods = _generate_connected_regions(space, start, flood_joints, is_blocked, max_cells)
         yield from islice(
