@@ -192,7 +192,7 @@ def test_a_first_link_between_two_balls_stays_there_whatever_the_others_do():
     space = FreeSpace(arm, np.ones(4, dtype=bool), shape, 0.0, np.stack([start, there]))
     flood = next(iter(find_confined_regions(space, start, there[None])))
     edge = 1 - np.arcsin((BALL + THICK) / 0.6)
-    most = np.abs(flood.middle[:, 0]).max() + flood.half_widths[0]
+    most = np.abs(flood.lower + (flood.cells + 0.5) * flood.cell_widths)[:, 0].max() + flood.cell_widths[0] / 2
     assert edge <= most < edge + 0.35
     assert not list(find_confined_regions(space, start, np.stack([there, here])))
 
@@ -215,7 +215,8 @@ def test_a_box_that_a_flood_misses_holds_nothing_that_it_got_to(limit, rng):
     inside = (middle[:, None] + half[:, None] * rng.uniform(-1, 1, (1, 100, 3)))[..., [0, 2]]
     if np.isinf(limit):
         inside = np.arctan2(np.sin(inside), np.cos(inside))
-    held = np.abs(inside[..., None, :] - flood.middle[:, [0, 2]]).max(axis=3) <= edge / 32
+    middles = flood.lower + (flood.cells + 0.5) * flood.cell_widths
+    held = np.abs(inside[..., None, :] - middles).max(axis=3) <= edge / 32
     held = held.any(axis=(1, 2))
     assert not (missed & held).any()
     assert (missed | held).mean() > 0.8

@@ -93,7 +93,6 @@ class ConnectedCells:
         is_unlimited: (f,) True for unlimited revolute joints.
         cells_per_joint: Number of cells of each joint.
         cells: (N, f) indices of the connected cells.
-        middle, half_widths: (N, n) and (n,) middles and half widths of the cells, for all joints.
         checked_cells: Number of cells evaluated so far.
     """
 
@@ -104,8 +103,6 @@ class ConnectedCells:
     is_unlimited: BoolArray
     cells_per_joint: int
     cells: IndexArray
-    middle: FloatArray
-    half_widths: FloatArray
     checked_cells: int
 
     @property
@@ -183,7 +180,7 @@ def _generate_connected_regions(
         if not holds_start.any():
             return  # the start is collision-free, so this cannot be
         is_connected = _connect_cells(cells, holds_start, cells_per_joint, is_unlimited)
-        cells, middle = cells[is_connected], middle[is_connected]
+        cells = cells[is_connected]
         yield ConnectedCells(
             [space.arm.joint_names[index] for index in joints],
             joints,
@@ -192,8 +189,6 @@ def _generate_connected_regions(
             is_unlimited,
             cells_per_joint,
             cells,
-            middle,
-            half_widths,
             checked_cells,
         )
         cells = (2 * cells[:, None] + np.array(list(product((0, 1), repeat=len(joints))))).reshape(-1, len(joints))
