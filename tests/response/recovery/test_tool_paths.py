@@ -212,8 +212,8 @@ def test_no_motion_along_a_line_is_proved_and_what_may_be_missed_is_said():
 
 def test_a_leg_after_others_is_proved_within_the_tolerance(monkeypatch):
     """The line of the test above follows another leg, which ends at its beginning and is easy; no pose is proved here."""
-    monkeypatch.setattr(path_proof, "prove_within_tolerance", lambda *_: (None, False))
-    monkeypatch.setattr(path_proof, "search_pose", lambda *_: (None, None, False))
+    monkeypatch.setattr(path_proof, "prove_within_tolerance", lambda *_: None)
+    monkeypatch.setattr(path_proof, "search_pose", lambda *_: (None, None))
     arm = hf.arms.load("planar-3r")
     corners = np.array([[-0.3, 1.2], [-0.3, 1.0002], [0.3, 1.0002]])
     bend = np.arccos((corners[0] @ corners[0] - 5) / 4)

@@ -301,7 +301,7 @@ class RecoveryAttempt:
         """Add the proof that no configuration meets the goal, or the unknown property where there is no proof."""
         recovery, target, space = goal.recovery, goal.target, self.search.space
         proofs = [
-            box_proof if sentence is None else PoseProof(sentence, bool(prove_within_tolerance(recovery, self.search, pose)[0]))
+            box_proof if sentence is None else PoseProof(sentence, bool(prove_within_tolerance(recovery, self.search, pose)))
             for sentence, box_proof, pose in zip(goal.reach_proofs, goal.box_proofs, target.poses, strict=True)
         ]
         if proofs[0] is not None and None not in proofs:

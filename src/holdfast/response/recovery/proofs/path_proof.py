@@ -17,7 +17,6 @@ from holdfast.response.recovery.continuation import RestOfPath
 from holdfast.response.recovery.goals import PoseSearch
 from holdfast.response.recovery.problem import describe_goal_violation
 from holdfast.response.recovery.proofs.reach import (
-    BRIEF_BOXES,
     EXACT_TOLERANCE,
     MAX_BOXES,
     Tolerance,
@@ -61,19 +60,14 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
     def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
         """Return the proof of one kind about a sample, or about all legs from ``sample``, unless it failed."""
         proofs: dict[str, Callable[[], Any]] = {
-            "brief": lambda: prove_within_tolerance(recovery, search, poses[sample], BRIEF_BOXES),
-            "long": lambda: prove_within_tolerance(recovery, search, poses[sample]),
-            "pose": lambda: prove("brief", sample)[0] or search_pose(recovery, space, poses[sample])[1],
+            "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
+            "pose": lambda: prove("within", sample) or search_pose(recovery, space, poses[sample])[1],
             "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance, sample),
         }
         key = kind, sample, tolerance
         if key not in tried:
             tried[key] = proofs[kind]()
         return tried[key]
-
-    def is_proved_within(sample: int) -> bool:
-        sentence, is_incomplete = prove("brief", sample)
-        return sentence is not None or (is_incomplete and prove("long", sample)[0] is not None)
 
     box_proofs = ((sample, prove("pose", sample)) for sample in hardest_samples)
     found_proof = simple_proof or next(((sample, text) for sample, text in box_proofs if text), None)
@@ -91,7 +85,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {sentence}",
         proof_kind="a pose of the path",
         proved_pose=None if is_violated else poses[proved_sample],
-        proved_within=any(is_proved_within(sample) for sample in (proved_sample, *hardest_samples)),
+        proved_within=any(prove("within", sample) for sample in (proved_sample, *hardest_samples)),
     )
 
 

@@ -23,7 +23,8 @@ from holdfast.response.recovery.space import FreeSpace
 from holdfast.response.recovery.task_rows import RowSolver
 
 MAX_BOXES = 8_000_000  # about 3 s; a number and not a time, so that the same seed gives the same result
-BRIEF_BOXES = 2_000_000  # of a search within the tolerance before the exact one, which may need fewer boxes
+_MAX_PLAIN_BOXES = 1_500_000  # about 0.5 s, without the test for blocked boxes
+_TIME_SHARE_WITHIN = 1 / 4  # of the remaining time, for a proof within the tolerance, which is tried before the exact one
 _RELATIVE_SLACK = 1e-9  # of the arm's length: rounding error of the bounds
 Tolerance = tuple[float, float]
 ANY_ORIENTATION = "; this is about the position alone, so it holds for every orientation"
@@ -73,31 +74,21 @@ def enumerate_collision_free(
     """
     space, configurations, proofs = search.space, list[FloatArray](), list[PoseProof | None]()
     for pose in poses:
-        # This includes the exact pose.
-        within_proof, is_incomplete = prove_within_tolerance(recovery, search, pose, BRIEF_BOXES)
-        q, proof = np.zeros((0, recovery.arm.n)), within_proof
-        if within_proof is None:
-            q, proof, _ = search_pose(recovery, space, pose)
-            if proof is not None and is_incomplete:
-                within_proof, _ = prove_within_tolerance(recovery, search, pose)
+        within_proof = prove_within_tolerance(recovery, search, pose)  # which includes the exact pose
+        q, proof = (np.zeros((0, recovery.arm.n)), None) if within_proof else search_pose(recovery, space, pose)
         configurations.append(q[space.are_valid(q) & search.solver.is_inside_cone(q, pose)] if len(q) else q)
-        proofs.append(None if proof is None else PoseProof(proof, within_proof is not None))
+        proofs.append(PoseProof(within_proof, True) if within_proof else PoseProof(proof) if proof else None)
     return np.concatenate(configurations), np.repeat(np.arange(len(poses)), [len(q) for q in configurations]), proofs
 
 
-def prove_within_tolerance(
-    recovery: Recovery, search: PoseSearch, pose: FloatArray, max_boxes: int = MAX_BOXES
-) -> tuple[str | None, bool]:
-    """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance.
+def prove_within_tolerance(recovery: Recovery, search: PoseSearch, pose: FloatArray) -> str | None:
+    """Prove that no collision-free configuration meets a pose (4, 4) within the tolerance, and return the sentence, or None.
 
-    The search uses half of the remaining time, and ends at a configuration within the tolerance that is not blocked.
-
-    Returns:
-        The sentence, or None; and True if the search ended after ``max_boxes`` boxes.
+    The search ends at a configuration within the tolerance that is not blocked.
     """
     if recovery.tolerance is None:
-        return None, False
-    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True, max_boxes=max_boxes)[1:]
+        return None
+    return search_pose(recovery, search.space, pose, recovery.tolerance, first=True, time_share=_TIME_SHARE_WITHIN)[1]
 
 
 def search_pose(
@@ -107,18 +98,18 @@ def search_pose(
     tolerance: Tolerance = EXACT_TOLERANCE,
     *,
     first: bool = False,
-    max_boxes: int = MAX_BOXES,
-) -> tuple[FloatArray, str | None, bool]:
-    """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one.
-
-    The last result is True if the search ended after ``max_boxes`` boxes.
-    """
-    blocked, request = make_blocked_boxes(space), (recovery.degraded, recovery.task, pose)
-    solutions = enumerate_configurations(*request, space.seconds_left / 2, blocked, tolerance, first, max_boxes)
+    time_share: float = 0.5,
+) -> tuple[FloatArray, str | None]:
+    """Return the configurations (K, n) of a pose (4, 4), and the proof that none of them is collision-free, if there is one."""
+    request, blocked, solutions = (recovery.degraded, recovery.task, pose), None, None
+    # Isolated configurations are few, and to check them takes less time than to exclude boxes in contact.
+    if not first and int(space.free.sum()) <= recovery.task.m:
+        solutions = enumerate_configurations(*request, space.seconds_left * time_share, max_boxes=_MAX_PLAIN_BOXES)
+    if solutions is None or solutions.finding == SearchOutcome.OPEN:
+        blocked = make_blocked_boxes(space)
+        solutions = enumerate_configurations(*request, space.seconds_left * time_share, blocked, tolerance, first)
     proof = prove_no_configuration(solutions, recovery.clearance, "" if blocked is None else blocked.blocker_names)
-    if solutions is None:
-        return np.zeros((0, recovery.arm.n)), proof, False
-    return solutions.q, proof, solutions.finding == SearchOutcome.OPEN and solutions.boxes >= max_boxes
+    return np.zeros((0, recovery.arm.n)) if solutions is None else solutions.q, proof
 
 
 def make_blocked_boxes(space: FreeSpace) -> BlockedBoxes | None:
