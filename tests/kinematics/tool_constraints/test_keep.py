@@ -228,7 +228,7 @@ def test_first_and_last_joints_that_do_not_change_a_tilt(panda, tilted, rng):
 def test_too_many_constraints_are_refused(panda):
     q = np.array([0.0, -0.4, 0.0, -2.0, 0.0, 1.6, 0.0])
     keep = [tool_constraints.upright(0.3, direction=panda.forward_kinematics(q)[:3, 2])] * 25
-    with pytest.raises(InputError, match="25 rows; at most 64 joints and 24 rows"):
+    with pytest.raises(InputError, match="25 equations; at most 64 joints and 24 equations"):
         hf.recover(panda, ["panda_joint3"], q, goal=q + 0.1, task="pose", samples=0, clearance=False, keep=keep)
 
 

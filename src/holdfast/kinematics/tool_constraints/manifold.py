@@ -39,7 +39,7 @@ _PARALLEL_TOLERANCE = 1e-10  # largest sine of the angle of two axes that count 
 _MAX_EXTENSION_STEPS = 400  # largest number of steps of one extension
 # As in constraint_manifold.hpp.
 _MAX_JOINTS = 64
-_MAX_ROWS = 24
+_MAX_EQUATIONS = 24
 _CONE_FRACTION = 0.9
 _CONSTRAINT_TYPE = np.dtype(
     [(name, np.int64) for name in ("normal_count", "is_turned", "has_axis")]
@@ -106,10 +106,10 @@ class ConstraintManifold:
                 bounds.append(2 * np.sqrt(2) * np.sin(angle / 2) if constraint.turned else np.sin(angle))
                 is_equality.append(constraint.turned or constraint.angle == 0)
                 self._row_count += 3 if is_equality[-1] else 1
-        if arm.n > _MAX_JOINTS or self._row_count > _MAX_ROWS:
+        if arm.n > _MAX_JOINTS or self._row_count > _MAX_EQUATIONS:
             raise InputError(
-                f"'{arm.name}' has {arm.n} joints, and the tool constraints have {self._row_count} rows; at most "
-                f"{_MAX_JOINTS} joints and {_MAX_ROWS} rows are possible"
+                f"'{arm.name}' has {arm.n} joints, and the tool constraints have {self._row_count} equations; at most "
+                f"{_MAX_JOINTS} joints and {_MAX_EQUATIONS} equations are possible"
             )
         self.has_equalities, self._bounds = any(is_equality), np.array(bounds)
         tool = align_joint_frames(arm)[1][-1] @ arm.tool

@@ -4,7 +4,7 @@
 // position error and that of its rotation error, and neither may exceed its bound.
 
 constexpr Int MAX_CHAIN = 64;  // joints of an arm
-constexpr Int MAX_ROWS = 24;  // equations of all constraints together, of which each length has up to three
+constexpr Int MAX_EQUATIONS = 24;  // equations of all constraints together, of which each length has up to three
 constexpr Int NEWTON_STEPS = 12;
 constexpr double MET = 1e-8;  // error below which an equation is met, m and rad
 constexpr double ROUNDING = 1e-9;  // m and rad
@@ -51,9 +51,9 @@ INLINE Reals absolute(Reals x) { return __builtin_elementwise_abs(x); }
 
 // Lengths of the errors at configurations, and with ``has_rows`` the equations that are not met, with their slopes by joints.
 struct Errors {
-  Int row_count, end_rows[MAX_ROWS];  // after the rows of each length
-  Reals lengths[MAX_ROWS], rows[MAX_ROWS], slopes[MAX_ROWS][MAX_CHAIN];
-  Reals ratios[MAX_ROWS];  // of the slopes of a length and of the norm of its rows
+  Int row_count, end_rows[MAX_EQUATIONS];  // after the rows of each length
+  Reals lengths[MAX_EQUATIONS], rows[MAX_EQUATIONS], slopes[MAX_EQUATIONS][MAX_CHAIN];
+  Reals ratios[MAX_EQUATIONS];  // of the slopes of a length and of the norm of its rows
 
   template <bool has_rows> void evaluate(const Manifold &manifold, const Reals *q) {
     typedef Point<Reals> P;
@@ -164,7 +164,7 @@ static void exclude_boxes(const Manifold &manifold, const double *middles, const
   constexpr Int COUNT = Lanes<double>::COUNT;
   const Int n = manifold.joint_count;
   const Reals none = {};
-  Reals q[MAX_CHAIN], half[MAX_CHAIN], curvature[MAX_ROWS], motion = none, turn = none;
+  Reals q[MAX_CHAIN], half[MAX_CHAIN], curvature[MAX_EQUATIONS], motion = none, turn = none;
   for (Int j = 0; j < n; j++) {
     half[j] = none + half_widths[j];
     motion += half[j] * manifold.lever_arms[j], turn += half[j] * manifold.is_revolute[j];
@@ -224,7 +224,7 @@ static void evaluate_errors(const Manifold &manifold, const double *q, Int count
 static void take_newton_step(const Manifold &manifold, const Errors &errors, Reals *q, Flags moving) {
   const Int n = manifold.joint_count, rows = errors.row_count;
   const Reals none = {};
-  Reals movable[MAX_CHAIN], step[MAX_CHAIN], gram[MAX_ROWS][MAX_ROWS], solution[MAX_ROWS], largest = none + 1e-12;
+  Reals movable[MAX_CHAIN], step[MAX_CHAIN], gram[MAX_EQUATIONS][MAX_EQUATIONS], solution[MAX_EQUATIONS], largest = none + 1e-12;
   for (Int j = 0; j < n; j++) movable[j] = none + (manifold.low[j] < manifold.high[j]);
   for (Int pass = 0; pass < 2; pass++) {
     Reals trace = none;
@@ -287,7 +287,7 @@ static void project(const Manifold &manifold, Reals *q, Flags moving, Errors &er
 static bool prove_constraints(const Manifold &manifold, const double *start, const double *difference, const double *reserves) {
   constexpr Int COUNT = Lanes<double>::COUNT;
   const Int n = manifold.joint_count;
-  Reals d[MAX_CHAIN], q[MAX_CHAIN], curvature[MAX_ROWS], first[MAX_ROWS];
+  Reals d[MAX_CHAIN], q[MAX_CHAIN], curvature[MAX_EQUATIONS], first[MAX_EQUATIONS];
   for (Int j = 0; j < n; j++) d[j] = Reals{} + difference[j];
   bound_curvature(manifold, d, curvature);
   struct Piece { double begin, width; } waiting[MAX_PIECES];
@@ -341,7 +341,7 @@ static void extend_paths(const Manifold &manifold, const Scene<double> *scene, c
   constexpr Int COUNT = Lanes<double>::COUNT;
   const Int n = manifold.joint_count;
   const Reals none = {};
-  Reals q[MAX_CHAIN], targets[MAX_CHAIN], remaining[MAX_CHAIN], steps[MAX_CHAIN], candidates[MAX_CHAIN], curvature[MAX_ROWS];
+  Reals q[MAX_CHAIN], targets[MAX_CHAIN], remaining[MAX_CHAIN], steps[MAX_CHAIN], candidates[MAX_CHAIN], curvature[MAX_EQUATIONS];
   Int path[COUNT], next = 0, active = 0;
   Flags may_arrive = none < none;
   Errors errors;

@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 71fe594d1a37eecbdb7c7817fad97a3a6425d33adde0facd9bab9854e5406ffc, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 b8009e68ff51eb84aade9804ae2de76d407b1087c43aeb0df178095a87ccf7f1, by tools/native.py. Do not edit.
 
 %struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
