@@ -199,7 +199,7 @@ class _BoxSearch:
                 contracted = contractor.contract(contractor.pop_batch(self._stack))
                 if stops_at_first and contractor.checked >= next_refinement:
                     next_refinement = 2 * contractor.checked
-                    self._refine_centers(contracted.box[:, 0])
+                    self._add_solution_from_centers(contracted.box[:, 0])
                 self._process_boxes(contracted)
                 advance(contractor.checked, max_boxes)
                 if stops_at_first and len(self.solutions):
@@ -229,7 +229,7 @@ class _BoxSearch:
         if len(halves):
             self._stack.append(halves)
 
-    def _refine_centers(self, q: FloatArray) -> None:
+    def _add_solution_from_centers(self, q: FloatArray) -> None:
         """Add one solution that is not blocked, found by Newton's method from the best centers q (N, n) of boxes, if any."""
         margins = self._boxes.kernel.rows(q, np.zeros_like(q), *self._boxes.kernel_inputs, first=1)[:, 0]
         refined, is_solution = self._apply_newton(q[np.argsort(margins, kind="stable")[:_REFINED_BOXES]])

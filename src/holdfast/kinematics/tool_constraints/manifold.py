@@ -19,6 +19,7 @@ from ctypes import Structure, byref, c_double, c_int64, c_void_p
 
 import numpy as np
 
+from holdfast.core.caching import cached_property
 from holdfast.core.errors import InputError
 from holdfast.core.typing import BoolArray, FloatArray, IndexArray
 from holdfast.kinematics.tool_constraints.constraint import ToolConstraint
@@ -28,7 +29,7 @@ from holdfast.model.collision.compiled.edges import EdgeChecker
 from holdfast.model.collision.compiled.library import list_fields, load_library
 from holdfast.model.collision.compiled.scene import tabulate_joints
 
-More = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
+ExtraEquations = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray]]
 """Errors (N, k) and slopes (N, k, n) of further equations, for configurations (N, n) and the numbers of their rows."""
 
 _ROUNDING_M_RAD = 1e-9  # m and rad
@@ -79,8 +80,6 @@ class ConstraintManifold:
 
     Attributes:
         has_equalities: True if some row is exact, so that no straight segment of joint space meets it for long.
-        changing_joints: (n,) True for moving joints that change an error. A joint about a vertical axis at the base, or about
-            the tool's axis at the end, does not change the tilt of the tool.
 
     Raises:
         InputError: There are too many joints or constraints.
@@ -120,10 +119,13 @@ class ConstraintManifold:
         self._library, self._arrays = load_library(), (joints, _tabulate_constraints(self.keep, tool[:3, :3]), *others)
         counts = arm.n, len(self.keep), len(bounds)
         self._manifold = _Manifold(*counts, *(array.ctypes.data for array in self._arrays))
-        self.changing_joints = self._find_changing_joints()
 
-    def _find_changing_joints(self) -> BoolArray:
-        """Return (n,) False for locked joints, and for the first and last moving joint if no error depends on them."""
+    @cached_property
+    def changing_joints(self) -> BoolArray:
+        """(n,) True for joints that move, without the first and the last of them if no error depends on them.
+
+        A joint about a vertical axis at the base, or about the tool's axis at the end, does not change the tilt of the tool.
+        """
         changing, moving, q = self.free.copy(), np.flatnonzero(self.free), self._low[None].copy()
         q[~np.isfinite(q)] = 0.0
         if not moving.size or any(constraint.turned or len(constraint.normals) for constraint in self.keep):
@@ -166,14 +168,14 @@ class ConstraintManifold:
                 bounds.append((np.sqrt(2) if constraint.turned else 1.0) * (joint_travel @ self._revolute))
         return np.stack(bounds, axis=1)
 
-    def are_boxes_violated(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
+    def exclude_boxes(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where a constraint is violated at every configuration within ``half_widths`` (n,) of q (N, n)."""
         inputs = np.ascontiguousarray(q), np.where(self.changing_joints, half_widths, 0.0)
-        is_violated = np.zeros(len(q), dtype=np.bool_)
+        is_excluded = np.zeros(len(q), dtype=np.bool_)
         self._library.exclude_boxes(
-            byref(self._manifold), *(array.ctypes.data for array in inputs), len(q), is_violated.ctypes.data
+            byref(self._manifold), *(array.ctypes.data for array in inputs), len(q), is_excluded.ctypes.data
         )
-        return is_violated
+        return is_excluded
 
     # ---- motions -----------------------------------------------------------------------------------------------------
 
@@ -221,7 +223,7 @@ class ConstraintManifold:
 
     # ---- projection --------------------------------------------------------------------------------------------------
 
-    def project(self, q: FloatArray, extra_equations: More | None = None) -> FloatArray:
+    def project(self, q: FloatArray, extra_equations: ExtraEquations | None = None) -> FloatArray:
         """Project configurations q (N, n) onto the constraints within the limits by Newton's method; it may fail for some.
 
         Args:

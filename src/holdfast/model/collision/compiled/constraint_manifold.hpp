@@ -6,7 +6,7 @@
 constexpr Int MAX_CHAIN = 64;  // joints of an arm
 constexpr Int MAX_EQUATIONS = 24;  // equations of all constraints together, of which each length has up to three
 constexpr Int NEWTON_STEPS = 12;
-constexpr double MET = 1e-8;  // error below which an equation is met, m and rad
+constexpr double EQUATION_TOLERANCE = 1e-8;  // error below which an equation is met, m and rad
 constexpr double ROUNDING = 1e-9;  // m and rad
 constexpr double CONE_FRACTION = 0.9;  // of a cone's opening, to which axes outside are projected
 constexpr double MAX_NEWTON_STEP = 0.3;  // rad or m of one joint
@@ -100,12 +100,12 @@ struct Errors {
         P turn = {none, none, none};  // the axis of the rotation that is missing, times the sine of its angle
         for (Int column = 0; column < 3; column++) {
           const double axis[3] = {tool[column], tool[3 + column], tool[6 + column]};
-          const P is = frames[n].rotate(axis);
+          const P now = frames[n].rotate(axis);
           const double *r = c.rotation + column;
-          const P gap = {is.x - r[0], is.y - r[3], is.z - r[6]};
+          const P gap = {now.x - r[0], now.y - r[3], now.z - r[6]};
           square += dot(gap, gap);
-          turn.x += 0.5 * (is.y * r[6] - is.z * r[3]), turn.y += 0.5 * (is.z * r[0] - is.x * r[6]);
-          turn.z += 0.5 * (is.x * r[3] - is.y * r[0]);
+          turn.x += 0.5 * (now.y * r[6] - now.z * r[3]), turn.y += 0.5 * (now.z * r[0] - now.x * r[6]);
+          turn.z += 0.5 * (now.x * r[3] - now.y * r[0]);
         }
         // The chord grows with the angle up to 180 deg, and for small errors it is the angle.
         const Reals chord = square_root(0.5 * square), scale = chord / larger(square_root(dot(turn, turn)), none + 1e-12);
@@ -119,9 +119,14 @@ struct Errors {
         const P across = {axis.y * d[2] - axis.z * d[1], axis.z * d[0] - axis.x * d[2], axis.x * d[1] - axis.y * d[0]};
         const P gap = {axis.x - d[0], axis.y - d[1], axis.z - d[2]};
         const Reals chord = square_root(dot(gap, gap)), sine = square_root(dot(across, across));
-        const Reals cosine = axis.x * d[0] + axis.y * d[1] + axis.z * d[2], scale = 1.0 / larger(sine, none + 1e-12);
+        const Reals cosine = axis.x * d[0] + axis.y * d[1] + axis.z * d[2];
+        // The axis of the rotation that is missing; where the tool points exactly away, any perpendicular axis.
+        const auto is_parallel = sine < 1e-9, is_along_y = axis.x * axis.x > 0.5;
+        const P turn = {is_parallel ? (is_along_y ? -axis.z : none) : across.x, is_parallel ? (is_along_y ? none : axis.z) : across.y,
+                        is_parallel ? (is_along_y ? axis.x : -axis.y) : across.z};
+        const Reals scale = 1.0 / square_root(dot(turn, turn));
         if (has_rows && c.angle == 0) {
-          const Reals components[3] = {axis.x, axis.y, axis.z}, errors[3] = {across.x, across.y, across.z};
+          const Reals components[3] = {axis.x, axis.y, axis.z}, errors[3] = {turn.x, turn.y, turn.z};
           for (Int row = 0; row < 3; row++) {
             const Reals a = components[row];
             const P v = {unit[row].x - a * axis.x, unit[row].y - a * axis.y, unit[row].z - a * axis.z};
@@ -134,7 +139,7 @@ struct Errors {
           const auto is_outside = chord > 2.0 * edge_sine;
           const Reals half_cosine = square_root(larger(1.0 - 0.25 * chord * chord, none + 0.01)), used = is_outside ? scale : none;
           const Reals error = is_outside ? (chord - 2.0 * allowed_sine) / half_cosine : none;
-          add_row(error, {across.x * used, across.y * used, across.z * used}, true);
+          add_row(error, {turn.x * used, turn.y * used, turn.z * used}, true);
         }
         ratios[length] = cosine > 0.0 ? cosine : none + NO_BOUND, end_rows[length] = row_count;
         lengths[length++] = cosine > 0.0 ? sine : 2.0 - sine;  // beyond 90 deg it points away, for any sine
@@ -277,7 +282,7 @@ static void project(const Manifold &manifold, Reals *q, Flags moving, Errors &er
     errors.evaluate<true>(manifold, q);
     Reals largest = none;
     for (Int row = 0; row < errors.row_count; row++) largest = larger(largest, absolute(errors.rows[row]));
-    const Flags unmet = moving & (largest > MET);
+    const Flags unmet = moving & (largest > EQUATION_TOLERANCE);
     if (round == NEWTON_STEPS || !any(unmet)) return;
     take_newton_step(manifold, errors, q, unmet);
   }

@@ -1,4 +1,4 @@
-; From route_search.cpp, SHA-256 b8009e68ff51eb84aade9804ae2de76d407b1087c43aeb0df178095a87ccf7f1, by tools/native.py. Do not edit.
+; From route_search.cpp, SHA-256 9b03759c4264b815be9d4e79cd04d7b70b40d4a17136c2f901190ab407f1a20b, by tools/native.py. Do not edit.
 
 %struct.Point.7 = type { <8 x double>, <8 x double>, <8 x double> }
 %struct.Point = type { <16 x float>, <16 x float>, <16 x float> }
@@ -9366,8 +9366,8 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   ret void
 
 307:
-  %308 = phi i64 [ 0, %294 ], [ %926, %925 ]
-  %309 = phi i64 [ 0, %294 ], [ %927, %925 ]
+  %308 = phi i64 [ 0, %294 ], [ %941, %940 ]
+  %309 = phi i64 [ 0, %294 ], [ %942, %940 ]
   %310 = load ptr, ptr %295, align 8
   %311 = getelementptr inbounds %struct.Constraint, ptr %310, i64 %309
   %312 = load i64, ptr %311, align 8
@@ -9683,7 +9683,7 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   %552 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %428
   store i64 %551, ptr %552, align 8
   %553 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %607)
-  br label %921
+  br label %936
 
 554:
   %555 = phi <8 x double> [ zeroinitializer, %432 ], [ %607, %554 ]
@@ -9762,7 +9762,7 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   %626 = getelementptr inbounds i8, ptr %311, i64 16
   %627 = load i64, ptr %626, align 8
   %628 = icmp eq i64 %627, 0
-  br i1 %628, label %925, label %629
+  br i1 %628, label %940, label %629
 
 629:
   %630 = getelementptr inbounds i8, ptr %311, i64 192
@@ -9833,288 +9833,303 @@ define linkonce_odr void @_ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d(ptr noun
   %695 = fadd contract <8 x double> %694, %693
   %696 = fmul contract <8 x double> %661, %657
   %697 = fadd contract <8 x double> %696, %695
-  %698 = fcmp contract ogt <8 x double> %692, <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
-  %699 = select contract <8 x i1> %698, <8 x double> %692, <8 x double> <double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11, double 0x3D719799812DEA11>
-  %700 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %699
-  %701 = getelementptr inbounds i8, ptr %311, i64 240
-  %702 = load double, ptr %701, align 8
-  %703 = fcmp contract oeq double %702, 0.000000e+00
-  br i1 %703, label %704, label %759
+  %698 = fcmp contract olt <8 x double> %692, <double 1.000000e-09, double 1.000000e-09, double 1.000000e-09, double 1.000000e-09, double 1.000000e-09, double 1.000000e-09, double 1.000000e-09, double 1.000000e-09>
+  %699 = fmul contract <8 x double> %647, %647
+  %700 = fcmp contract ogt <8 x double> %699, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %701 = fneg contract <8 x double> %657
+  %702 = select contract <8 x i1> %700, <8 x double> %701, <8 x double> zeroinitializer
+  %703 = select contract <8 x i1> %698, <8 x double> %702, <8 x double> %668
+  %704 = select contract <8 x i1> %700, <8 x double> zeroinitializer, <8 x double> %657
+  %705 = select contract <8 x i1> %698, <8 x double> %704, <8 x double> %674
+  %706 = fneg contract <8 x double> %652
+  %707 = select contract <8 x i1> %700, <8 x double> %647, <8 x double> %706
+  %708 = select contract <8 x i1> %698, <8 x double> %707, <8 x double> %677
+  %709 = fmul contract <8 x double> %703, %703
+  %710 = fmul contract <8 x double> %705, %705
+  %711 = fadd contract <8 x double> %709, %710
+  %712 = fmul contract <8 x double> %708, %708
+  %713 = fadd contract <8 x double> %712, %711
+  %714 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %713)
+  %715 = fdiv contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %714
+  %716 = getelementptr inbounds i8, ptr %311, i64 240
+  %717 = load double, ptr %716, align 8
+  %718 = fcmp contract oeq double %717, 0.000000e+00
+  br i1 %718, label %719, label %774
 
-704:
+719:
   call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %6)
   store <8 x double> %647, ptr %6, align 64
   store <8 x double> %652, ptr %302, align 64
   store <8 x double> %657, ptr %303, align 64
   call void @llvm.lifetime.start.p0(i64 192, ptr nonnull %7)
-  store <8 x double> %668, ptr %7, align 64
-  store <8 x double> %674, ptr %304, align 64
-  store <8 x double> %677, ptr %305, align 64
-  %705 = load i64, ptr %0, align 64
-  br label %707
+  store <8 x double> %703, ptr %7, align 64
+  store <8 x double> %705, ptr %304, align 64
+  store <8 x double> %708, ptr %305, align 64
+  %720 = load i64, ptr %0, align 64
+  br label %722
 
-706:
+721:
   call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %7)
   call void @llvm.lifetime.end.p0(i64 192, ptr nonnull %6)
-  br label %913
+  br label %928
 
-707:
-  %708 = phi i64 [ %705, %704 ], [ %756, %754 ]
-  %709 = phi i64 [ 0, %704 ], [ %757, %754 ]
-  %710 = getelementptr inbounds [3 x <8 x double>], ptr %6, i64 0, i64 %709
-  %711 = load <8 x double>, ptr %710, align 64
-  %712 = getelementptr inbounds [3 x %struct.Point.7], ptr @__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit, i64 0, i64 %709
-  %713 = load <8 x double>, ptr %712, align 64
-  %714 = fmul contract <8 x double> %647, %711
-  %715 = fsub contract <8 x double> %713, %714
-  %716 = getelementptr inbounds i8, ptr %712, i64 64
-  %717 = load <8 x double>, ptr %716, align 64
-  %718 = fmul contract <8 x double> %652, %711
-  %719 = fsub contract <8 x double> %717, %718
-  %720 = getelementptr inbounds i8, ptr %712, i64 128
-  %721 = load <8 x double>, ptr %720, align 64
-  %722 = fmul contract <8 x double> %657, %711
-  %723 = fsub contract <8 x double> %721, %722
-  %724 = getelementptr inbounds [3 x <8 x double>], ptr %7, i64 0, i64 %709
-  %725 = load <8 x double>, ptr %724, align 64
-  %726 = fmul contract <8 x double> %686, %725
-  %727 = fmul contract <8 x double> %700, %726
-  %728 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %708
-  store <8 x double> %727, ptr %728, align 64
-  br i1 %24, label %729, label %754
+722:
+  %723 = phi i64 [ %720, %719 ], [ %771, %769 ]
+  %724 = phi i64 [ 0, %719 ], [ %772, %769 ]
+  %725 = getelementptr inbounds [3 x <8 x double>], ptr %6, i64 0, i64 %724
+  %726 = load <8 x double>, ptr %725, align 64
+  %727 = getelementptr inbounds [3 x %struct.Point.7], ptr @__const._ZN6Errors8evaluateILb1EEEvRK8ManifoldPKDv8_d.unit, i64 0, i64 %724
+  %728 = load <8 x double>, ptr %727, align 64
+  %729 = fmul contract <8 x double> %647, %726
+  %730 = fsub contract <8 x double> %728, %729
+  %731 = getelementptr inbounds i8, ptr %727, i64 64
+  %732 = load <8 x double>, ptr %731, align 64
+  %733 = fmul contract <8 x double> %652, %726
+  %734 = fsub contract <8 x double> %732, %733
+  %735 = getelementptr inbounds i8, ptr %727, i64 128
+  %736 = load <8 x double>, ptr %735, align 64
+  %737 = fmul contract <8 x double> %657, %726
+  %738 = fsub contract <8 x double> %736, %737
+  %739 = getelementptr inbounds [3 x <8 x double>], ptr %7, i64 0, i64 %724
+  %740 = load <8 x double>, ptr %739, align 64
+  %741 = fmul contract <8 x double> %686, %740
+  %742 = fmul contract <8 x double> %715, %741
+  %743 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %723
+  store <8 x double> %742, ptr %743, align 64
+  br i1 %24, label %744, label %769
 
-729:
-  %730 = phi i64 [ %731, %749 ], [ 0, %707 ]
-  %731 = add nuw nsw i64 %730, 1
-  %732 = load ptr, ptr %298, align 8
-  %733 = getelementptr inbounds double, ptr %732, i64 %730
-  %734 = load double, ptr %733, align 8
-  %735 = fcmp contract oeq double %734, 0.000000e+00
-  br i1 %735, label %749, label %736
+744:
+  %745 = phi i64 [ %746, %764 ], [ 0, %722 ]
+  %746 = add nuw nsw i64 %745, 1
+  %747 = load ptr, ptr %298, align 8
+  %748 = getelementptr inbounds double, ptr %747, i64 %745
+  %749 = load double, ptr %748, align 8
+  %750 = fcmp contract oeq double %749, 0.000000e+00
+  br i1 %750, label %764, label %751
 
-736:
-  %737 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %731
-  %738 = getelementptr inbounds i8, ptr %737, i64 512
-  %739 = load <8 x double>, ptr %738, align 64
-  %740 = getelementptr inbounds i8, ptr %737, i64 320
-  %741 = load <8 x double>, ptr %740, align 64
-  %742 = getelementptr inbounds i8, ptr %737, i64 128
-  %743 = load <8 x double>, ptr %742, align 64
-  %744 = fmul contract <8 x double> %715, %743
-  %745 = fmul contract <8 x double> %719, %741
-  %746 = fadd contract <8 x double> %745, %744
-  %747 = fmul contract <8 x double> %723, %739
-  %748 = fadd contract <8 x double> %747, %746
-  br label %749
+751:
+  %752 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %746
+  %753 = getelementptr inbounds i8, ptr %752, i64 512
+  %754 = load <8 x double>, ptr %753, align 64
+  %755 = getelementptr inbounds i8, ptr %752, i64 320
+  %756 = load <8 x double>, ptr %755, align 64
+  %757 = getelementptr inbounds i8, ptr %752, i64 128
+  %758 = load <8 x double>, ptr %757, align 64
+  %759 = fmul contract <8 x double> %730, %758
+  %760 = fmul contract <8 x double> %734, %756
+  %761 = fadd contract <8 x double> %760, %759
+  %762 = fmul contract <8 x double> %738, %754
+  %763 = fadd contract <8 x double> %762, %761
+  br label %764
 
-749:
-  %750 = phi contract <8 x double> [ %748, %736 ], [ zeroinitializer, %729 ]
-  %751 = load i64, ptr %0, align 64
-  %752 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %751, i64 %730
-  store <8 x double> %750, ptr %752, align 64
-  %753 = icmp eq i64 %731, %8
-  br i1 %753, label %754, label %729
+764:
+  %765 = phi contract <8 x double> [ %763, %751 ], [ zeroinitializer, %744 ]
+  %766 = load i64, ptr %0, align 64
+  %767 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %766, i64 %745
+  store <8 x double> %765, ptr %767, align 64
+  %768 = icmp eq i64 %746, %8
+  br i1 %768, label %769, label %744
 
-754:
-  %755 = load i64, ptr %0, align 64
-  %756 = add nsw i64 %755, 1
-  store i64 %756, ptr %0, align 64
-  %757 = add nuw nsw i64 %709, 1
-  %758 = icmp eq i64 %757, 3
-  br i1 %758, label %706, label %707
+769:
+  %770 = load i64, ptr %0, align 64
+  %771 = add nsw i64 %770, 1
+  store i64 %771, ptr %0, align 64
+  %772 = add nuw nsw i64 %724, 1
+  %773 = icmp eq i64 %772, 3
+  br i1 %773, label %721, label %722
 
-759:
-  %760 = fmul contract double %702, 4.500000e-01
-  %761 = fadd contract double %760, 0.000000e+00
-  %762 = insertelement <8 x double> poison, double %761, i64 0
-  %763 = shufflevector <8 x double> %762, <8 x double> poison, <8 x i32> zeroinitializer
-  %764 = fmul contract <8 x double> %763, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %765 = fadd contract <8 x double> %764, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %766 = fadd contract <8 x double> %765, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %767 = fmul contract <8 x double> %766, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %768 = fsub contract <8 x double> %763, %767
-  %769 = fmul contract <8 x double> %766, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %770 = fsub contract <8 x double> %768, %769
-  %771 = fmul contract <8 x double> %766, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %772 = fsub contract <8 x double> %770, %771
-  %773 = fmul contract <8 x double> %766, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %774 = fadd contract <8 x double> %773, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %775 = fadd contract <8 x double> %774, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %776 = fsub contract <8 x double> %773, %775
-  %777 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %776)
-  %778 = fmul contract <8 x double> %777, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %779 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %778
-  %780 = fmul contract <8 x double> %772, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %781 = fmul contract <8 x double> %780, %780
-  %782 = fmul contract <8 x double> %780, %781
-  %783 = fmul contract <8 x double> %781, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %784 = fadd contract <8 x double> %783, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %785 = fmul contract <8 x double> %781, %784
-  %786 = fadd contract <8 x double> %785, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %787 = fmul contract <8 x double> %781, %786
-  %788 = fadd contract <8 x double> %787, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %789 = fmul contract <8 x double> %781, %788
-  %790 = fadd contract <8 x double> %789, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %791 = fmul contract <8 x double> %781, %790
-  %792 = fadd contract <8 x double> %791, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %793 = fmul contract <8 x double> %782, %792
-  %794 = fadd contract <8 x double> %780, %793
-  %795 = fmul contract <8 x double> %781, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %796 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %795
-  %797 = fmul contract <8 x double> %781, %781
-  %798 = fmul contract <8 x double> %781, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %799 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %798
-  %800 = fmul contract <8 x double> %781, %799
-  %801 = fadd contract <8 x double> %800, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %802 = fmul contract <8 x double> %781, %801
-  %803 = fadd contract <8 x double> %802, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %804 = fmul contract <8 x double> %781, %803
-  %805 = fadd contract <8 x double> %804, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %806 = fmul contract <8 x double> %781, %805
-  %807 = fadd contract <8 x double> %806, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+774:
+  %775 = fmul contract double %717, 4.500000e-01
+  %776 = fadd contract double %775, 0.000000e+00
+  %777 = insertelement <8 x double> poison, double %776, i64 0
+  %778 = shufflevector <8 x double> %777, <8 x double> poison, <8 x i32> zeroinitializer
+  %779 = fmul contract <8 x double> %778, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %780 = fadd contract <8 x double> %779, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %781 = fadd contract <8 x double> %780, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %782 = fmul contract <8 x double> %781, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %783 = fsub contract <8 x double> %778, %782
+  %784 = fmul contract <8 x double> %781, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %785 = fsub contract <8 x double> %783, %784
+  %786 = fmul contract <8 x double> %781, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %787 = fsub contract <8 x double> %785, %786
+  %788 = fmul contract <8 x double> %781, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %789 = fadd contract <8 x double> %788, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %790 = fadd contract <8 x double> %789, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %791 = fsub contract <8 x double> %788, %790
+  %792 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %791)
+  %793 = fmul contract <8 x double> %792, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %794 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %793
+  %795 = fmul contract <8 x double> %787, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %796 = fmul contract <8 x double> %795, %795
+  %797 = fmul contract <8 x double> %795, %796
+  %798 = fmul contract <8 x double> %796, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %799 = fadd contract <8 x double> %798, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %800 = fmul contract <8 x double> %796, %799
+  %801 = fadd contract <8 x double> %800, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %802 = fmul contract <8 x double> %796, %801
+  %803 = fadd contract <8 x double> %802, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %804 = fmul contract <8 x double> %796, %803
+  %805 = fadd contract <8 x double> %804, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %806 = fmul contract <8 x double> %796, %805
+  %807 = fadd contract <8 x double> %806, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
   %808 = fmul contract <8 x double> %797, %807
-  %809 = fadd contract <8 x double> %796, %808
-  %810 = fmul contract <8 x double> %779, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %811 = fmul contract <8 x double> %810, %794
-  %812 = fmul contract <8 x double> %809, %811
-  %813 = fadd contract double %702, -1.000000e-09
-  %814 = fmul contract double %813, 5.000000e-01
-  %815 = fadd contract double %814, 0.000000e+00
-  %816 = insertelement <8 x double> poison, double %815, i64 0
-  %817 = shufflevector <8 x double> %816, <8 x double> poison, <8 x i32> zeroinitializer
-  %818 = fmul contract <8 x double> %817, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
-  %819 = fadd contract <8 x double> %818, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %820 = fadd contract <8 x double> %819, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %821 = fmul contract <8 x double> %820, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
-  %822 = fsub contract <8 x double> %817, %821
-  %823 = fmul contract <8 x double> %820, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
-  %824 = fsub contract <8 x double> %822, %823
-  %825 = fmul contract <8 x double> %820, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
-  %826 = fsub contract <8 x double> %824, %825
-  %827 = fmul contract <8 x double> %820, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %828 = fadd contract <8 x double> %827, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
-  %829 = fadd contract <8 x double> %828, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
-  %830 = fsub contract <8 x double> %827, %829
-  %831 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %830)
-  %832 = fmul contract <8 x double> %831, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
-  %833 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %832
-  %834 = fmul contract <8 x double> %826, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %835 = fmul contract <8 x double> %834, %834
-  %836 = fmul contract <8 x double> %834, %835
-  %837 = fmul contract <8 x double> %835, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
-  %838 = fadd contract <8 x double> %837, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
-  %839 = fmul contract <8 x double> %835, %838
-  %840 = fadd contract <8 x double> %839, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
-  %841 = fmul contract <8 x double> %835, %840
-  %842 = fadd contract <8 x double> %841, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
-  %843 = fmul contract <8 x double> %835, %842
-  %844 = fadd contract <8 x double> %843, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
-  %845 = fmul contract <8 x double> %835, %844
-  %846 = fadd contract <8 x double> %845, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
-  %847 = fmul contract <8 x double> %836, %846
-  %848 = fadd contract <8 x double> %834, %847
-  %849 = fmul contract <8 x double> %835, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
-  %850 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %849
-  %851 = fmul contract <8 x double> %835, %835
-  %852 = fmul contract <8 x double> %835, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
-  %853 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %852
-  %854 = fmul contract <8 x double> %835, %853
-  %855 = fadd contract <8 x double> %854, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
-  %856 = fmul contract <8 x double> %835, %855
-  %857 = fadd contract <8 x double> %856, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
-  %858 = fmul contract <8 x double> %835, %857
-  %859 = fadd contract <8 x double> %858, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
-  %860 = fmul contract <8 x double> %835, %859
-  %861 = fadd contract <8 x double> %860, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %809 = fadd contract <8 x double> %795, %808
+  %810 = fmul contract <8 x double> %796, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %811 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %810
+  %812 = fmul contract <8 x double> %796, %796
+  %813 = fmul contract <8 x double> %796, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %814 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %813
+  %815 = fmul contract <8 x double> %796, %814
+  %816 = fadd contract <8 x double> %815, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %817 = fmul contract <8 x double> %796, %816
+  %818 = fadd contract <8 x double> %817, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %819 = fmul contract <8 x double> %796, %818
+  %820 = fadd contract <8 x double> %819, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %821 = fmul contract <8 x double> %796, %820
+  %822 = fadd contract <8 x double> %821, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %823 = fmul contract <8 x double> %812, %822
+  %824 = fadd contract <8 x double> %811, %823
+  %825 = fmul contract <8 x double> %794, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %826 = fmul contract <8 x double> %825, %809
+  %827 = fmul contract <8 x double> %824, %826
+  %828 = fadd contract double %717, -1.000000e-09
+  %829 = fmul contract double %828, 5.000000e-01
+  %830 = fadd contract double %829, 0.000000e+00
+  %831 = insertelement <8 x double> poison, double %830, i64 0
+  %832 = shufflevector <8 x double> %831, <8 x double> poison, <8 x i32> zeroinitializer
+  %833 = fmul contract <8 x double> %832, <double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883, double 0x3FD45F306DC9C883>
+  %834 = fadd contract <8 x double> %833, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %835 = fadd contract <8 x double> %834, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %836 = fmul contract <8 x double> %835, <double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000, double 0x400921FB54400000>
+  %837 = fsub contract <8 x double> %832, %836
+  %838 = fmul contract <8 x double> %835, <double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000, double 0x3DE0B4611A600000>
+  %839 = fsub contract <8 x double> %837, %838
+  %840 = fmul contract <8 x double> %835, <double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925, double 0x3BB3198A2E071925>
+  %841 = fsub contract <8 x double> %839, %840
+  %842 = fmul contract <8 x double> %835, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %843 = fadd contract <8 x double> %842, <double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000, double 0x4338000000000000>
+  %844 = fadd contract <8 x double> %843, <double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000, double 0xC338000000000000>
+  %845 = fsub contract <8 x double> %842, %844
+  %846 = tail call contract <8 x double> @llvm.fabs.v8f64(<8 x double> %845)
+  %847 = fmul contract <8 x double> %846, <double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00, double 4.000000e+00>
+  %848 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %847
+  %849 = fmul contract <8 x double> %841, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %850 = fmul contract <8 x double> %849, %849
+  %851 = fmul contract <8 x double> %849, %850
+  %852 = fmul contract <8 x double> %850, <double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C, double 0x3DE5D93A5ACFD57C>
+  %853 = fadd contract <8 x double> %852, <double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB, double 0xBE5AE5E68A2B9CEB>
+  %854 = fmul contract <8 x double> %850, %853
+  %855 = fadd contract <8 x double> %854, <double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D, double 0x3EC71DE357B1FE7D>
+  %856 = fmul contract <8 x double> %850, %855
+  %857 = fadd contract <8 x double> %856, <double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5, double 0xBF2A01A019C161D5>
+  %858 = fmul contract <8 x double> %850, %857
+  %859 = fadd contract <8 x double> %858, <double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6, double 0x3F8111111110F8A6>
+  %860 = fmul contract <8 x double> %850, %859
+  %861 = fadd contract <8 x double> %860, <double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549, double 0xBFC5555555555549>
   %862 = fmul contract <8 x double> %851, %861
-  %863 = fadd contract <8 x double> %850, %862
-  %864 = fmul contract <8 x double> %833, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %865 = fmul contract <8 x double> %864, %848
-  %866 = fmul contract <8 x double> %863, %865
-  %867 = fmul contract <8 x double> %866, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %868 = fcmp contract ogt <8 x double> %686, %867
-  %869 = fmul contract <8 x double> %686, <double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01>
-  %870 = fmul contract <8 x double> %686, %869
-  %871 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %870
-  %872 = fcmp contract ogt <8 x double> %871, <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
-  %873 = select contract <8 x i1> %872, <8 x double> %871, <8 x double> <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
-  %874 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %873)
-  %875 = select contract <8 x i1> %868, <8 x double> %700, <8 x double> zeroinitializer
-  %876 = fmul contract <8 x double> %812, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
-  %877 = fsub contract <8 x double> %686, %876
-  %878 = fdiv contract <8 x double> %877, %874
-  %879 = select contract <8 x i1> %868, <8 x double> %878, <8 x double> zeroinitializer
-  %880 = fmul contract <8 x double> %668, %875
-  %881 = fmul contract <8 x double> %674, %875
-  %882 = fmul contract <8 x double> %677, %875
-  %883 = load i64, ptr %0, align 64
-  %884 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %883
-  store <8 x double> %879, ptr %884, align 64
-  br i1 %24, label %885, label %910
+  %863 = fadd contract <8 x double> %849, %862
+  %864 = fmul contract <8 x double> %850, <double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01, double 5.000000e-01>
+  %865 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %864
+  %866 = fmul contract <8 x double> %850, %850
+  %867 = fmul contract <8 x double> %850, <double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4, double 0x3DA8FAE9BE8838D4>
+  %868 = fsub contract <8 x double> <double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4, double 0x3E21EE9EBDB4B1C4>, %867
+  %869 = fmul contract <8 x double> %850, %868
+  %870 = fadd contract <8 x double> %869, <double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD, double 0xBE927E4F809C52AD>
+  %871 = fmul contract <8 x double> %850, %870
+  %872 = fadd contract <8 x double> %871, <double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590, double 0x3EFA01A019CB1590>
+  %873 = fmul contract <8 x double> %850, %872
+  %874 = fadd contract <8 x double> %873, <double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177, double 0xBF56C16C16C15177>
+  %875 = fmul contract <8 x double> %850, %874
+  %876 = fadd contract <8 x double> %875, <double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C, double 0x3FA555555555554C>
+  %877 = fmul contract <8 x double> %866, %876
+  %878 = fadd contract <8 x double> %865, %877
+  %879 = fmul contract <8 x double> %848, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %880 = fmul contract <8 x double> %879, %863
+  %881 = fmul contract <8 x double> %878, %880
+  %882 = fmul contract <8 x double> %881, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %883 = fcmp contract ogt <8 x double> %686, %882
+  %884 = fmul contract <8 x double> %686, <double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01, double 2.500000e-01>
+  %885 = fmul contract <8 x double> %686, %884
+  %886 = fsub contract <8 x double> <double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00, double 1.000000e+00>, %885
+  %887 = fcmp contract ogt <8 x double> %886, <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
+  %888 = select contract <8 x i1> %887, <8 x double> %886, <8 x double> <double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02, double 1.000000e-02>
+  %889 = tail call contract noundef <8 x double> @llvm.sqrt.v8f64(<8 x double> %888)
+  %890 = select contract <8 x i1> %883, <8 x double> %715, <8 x double> zeroinitializer
+  %891 = fmul contract <8 x double> %827, <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>
+  %892 = fsub contract <8 x double> %686, %891
+  %893 = fdiv contract <8 x double> %892, %889
+  %894 = select contract <8 x i1> %883, <8 x double> %893, <8 x double> zeroinitializer
+  %895 = fmul contract <8 x double> %703, %890
+  %896 = fmul contract <8 x double> %705, %890
+  %897 = fmul contract <8 x double> %708, %890
+  %898 = load i64, ptr %0, align 64
+  %899 = getelementptr inbounds [24 x <8 x double>], ptr %296, i64 0, i64 %898
+  store <8 x double> %894, ptr %899, align 64
+  br i1 %24, label %900, label %925
 
-885:
-  %886 = phi i64 [ %887, %905 ], [ 0, %759 ]
-  %887 = add nuw nsw i64 %886, 1
-  %888 = load ptr, ptr %298, align 8
-  %889 = getelementptr inbounds double, ptr %888, i64 %886
-  %890 = load double, ptr %889, align 8
-  %891 = fcmp contract oeq double %890, 0.000000e+00
-  br i1 %891, label %905, label %892
+900:
+  %901 = phi i64 [ %902, %920 ], [ 0, %774 ]
+  %902 = add nuw nsw i64 %901, 1
+  %903 = load ptr, ptr %298, align 8
+  %904 = getelementptr inbounds double, ptr %903, i64 %901
+  %905 = load double, ptr %904, align 8
+  %906 = fcmp contract oeq double %905, 0.000000e+00
+  br i1 %906, label %920, label %907
 
-892:
-  %893 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %887
-  %894 = getelementptr inbounds i8, ptr %893, i64 512
-  %895 = load <8 x double>, ptr %894, align 64
-  %896 = getelementptr inbounds i8, ptr %893, i64 320
-  %897 = load <8 x double>, ptr %896, align 64
-  %898 = getelementptr inbounds i8, ptr %893, i64 128
-  %899 = load <8 x double>, ptr %898, align 64
-  %900 = fmul contract <8 x double> %880, %899
-  %901 = fmul contract <8 x double> %881, %897
-  %902 = fadd contract <8 x double> %901, %900
-  %903 = fmul contract <8 x double> %882, %895
-  %904 = fadd contract <8 x double> %903, %902
-  br label %905
+907:
+  %908 = getelementptr inbounds [65 x %struct.Frame.3], ptr %5, i64 0, i64 %902
+  %909 = getelementptr inbounds i8, ptr %908, i64 512
+  %910 = load <8 x double>, ptr %909, align 64
+  %911 = getelementptr inbounds i8, ptr %908, i64 320
+  %912 = load <8 x double>, ptr %911, align 64
+  %913 = getelementptr inbounds i8, ptr %908, i64 128
+  %914 = load <8 x double>, ptr %913, align 64
+  %915 = fmul contract <8 x double> %895, %914
+  %916 = fmul contract <8 x double> %896, %912
+  %917 = fadd contract <8 x double> %916, %915
+  %918 = fmul contract <8 x double> %897, %910
+  %919 = fadd contract <8 x double> %918, %917
+  br label %920
 
-905:
-  %906 = phi contract <8 x double> [ %904, %892 ], [ zeroinitializer, %885 ]
-  %907 = load i64, ptr %0, align 64
-  %908 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %907, i64 %886
-  store <8 x double> %906, ptr %908, align 64
-  %909 = icmp eq i64 %887, %8
-  br i1 %909, label %910, label %885
-
-910:
-  %911 = load i64, ptr %0, align 64
-  %912 = add nsw i64 %911, 1
-  store i64 %912, ptr %0, align 64
-  br label %913
-
-913:
-  %914 = fcmp contract ogt <8 x double> %697, zeroinitializer
-  %915 = select contract <8 x i1> %914, <8 x double> %697, <8 x double> <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
-  %916 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %428
-  store <8 x double> %915, ptr %916, align 64
-  %917 = load i64, ptr %0, align 64
-  %918 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %428
-  store i64 %917, ptr %918, align 8
-  %919 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %692
-  %920 = select contract <8 x i1> %914, <8 x double> %692, <8 x double> %919
-  br label %921
-
-921:
-  %922 = phi <8 x double> [ %920, %913 ], [ %553, %540 ]
-  %923 = add nsw i64 %428, 1
-  %924 = getelementptr inbounds [24 x <8 x double>], ptr %301, i64 0, i64 %428
-  store <8 x double> %922, ptr %924, align 64
-  br label %925
+920:
+  %921 = phi contract <8 x double> [ %919, %907 ], [ zeroinitializer, %900 ]
+  %922 = load i64, ptr %0, align 64
+  %923 = getelementptr inbounds [24 x [64 x <8 x double>]], ptr %297, i64 0, i64 %922, i64 %901
+  store <8 x double> %921, ptr %923, align 64
+  %924 = icmp eq i64 %902, %8
+  br i1 %924, label %925, label %900
 
 925:
-  %926 = phi i64 [ %428, %625 ], [ %923, %921 ]
-  %927 = add nuw nsw i64 %309, 1
-  %928 = load i64, ptr %291, align 8
-  %929 = icmp slt i64 %927, %928
-  br i1 %929, label %307, label %306
+  %926 = load i64, ptr %0, align 64
+  %927 = add nsw i64 %926, 1
+  store i64 %927, ptr %0, align 64
+  br label %928
+
+928:
+  %929 = fcmp contract ogt <8 x double> %697, zeroinitializer
+  %930 = select contract <8 x i1> %929, <8 x double> %697, <8 x double> <double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A, double 0x6974E718D7D7625A>
+  %931 = getelementptr inbounds [24 x <8 x double>], ptr %299, i64 0, i64 %428
+  store <8 x double> %930, ptr %931, align 64
+  %932 = load i64, ptr %0, align 64
+  %933 = getelementptr inbounds [24 x i64], ptr %300, i64 0, i64 %428
+  store i64 %932, ptr %933, align 8
+  %934 = fsub contract <8 x double> <double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00, double 2.000000e+00>, %692
+  %935 = select contract <8 x i1> %929, <8 x double> %692, <8 x double> %934
+  br label %936
+
+936:
+  %937 = phi <8 x double> [ %935, %928 ], [ %553, %540 ]
+  %938 = add nsw i64 %428, 1
+  %939 = getelementptr inbounds [24 x <8 x double>], ptr %301, i64 0, i64 %428
+  store <8 x double> %937, ptr %939, align 64
+  br label %940
+
+940:
+  %941 = phi i64 [ %428, %625 ], [ %938, %936 ]
+  %942 = add nuw nsw i64 %309, 1
+  %943 = load i64, ptr %291, align 8
+  %944 = icmp slt i64 %942, %943
+  br i1 %944, label %307, label %306
 }
 
 declare float @llvm.sqrt.f32(float)

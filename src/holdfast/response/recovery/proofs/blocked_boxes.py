@@ -67,15 +67,15 @@ class BlockedBoxes:
 
     def are_boxes_self_colliding(self, q: FloatArray, half_widths: FloatArray) -> BoolArray:
         """Return (N,) True where every configuration within ``half_widths`` (N, n) of q (N, n) is blocked by the arm alone."""
-        is_blocked, near_pairs = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
-        near = np.flatnonzero((near_pairs < self._margin).any(axis=1))
-        near_pairs, frames = near_pairs[near], self._arm.frames(q[near])
+        is_blocked, distances = np.zeros(len(q), dtype=bool), self._self_clearance.by_pair(q)
+        near = np.flatnonzero((distances < self._margin).any(axis=1))
+        distances, frames = distances[near], self._arm.frames(q[near])
         for pair in self._self_pairs:
-            indices = np.flatnonzero((near_pairs[:, pair.columns].min(axis=1) < self._margin) & ~is_blocked[near])
+            indices = np.flatnonzero((distances[:, pair.columns].min(axis=1) < self._margin) & ~is_blocked[near])
             if not indices.size:
                 continue
             max_distances = self._margin - _CONTACT_TOLERANCE_M - half_widths[near[indices]] @ pair.lipschitz_bounds.T
-            is_deep = pair.are_nearer(frames[indices], near_pairs[indices], max_distances)
+            is_deep = pair.are_nearer(frames[indices], distances[indices], max_distances)
             is_blocked[near[indices]] = is_deep
             if is_deep.any():
                 self._blockers.add(pair.name)

@@ -111,7 +111,7 @@ class BlockedCells:
         """Return (N,) True where tool constraints or the arm itself block every configuration of cells, as in a call."""
         manifold, self_blocked, is_blocked = self._space.manifold, self.self_blocked, np.zeros(len(q), dtype=bool)
         if manifold is not None and len(q):
-            is_blocked = manifold.are_boxes_violated(q, half_widths[0])
+            is_blocked = manifold.exclude_boxes(q, half_widths[0])
         if self_blocked is not None:
             is_blocked[~is_blocked] = self_blocked.are_boxes_self_colliding(q[~is_blocked], half_widths[~is_blocked])
         return is_blocked

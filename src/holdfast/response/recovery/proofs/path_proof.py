@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -31,8 +31,9 @@ from holdfast.response.recovery.space import FreeSpace
 if TYPE_CHECKING:
     from holdfast.kinematics.paths.path import Path
 
-TriedProofs = dict[tuple[str, int, Tolerance], Any]
-"""Results of proofs about a path by kind, sample and tolerance; a second search with exact distances does not change them."""
+_Proof = TypeVar("_Proof")
+TriedProofs = dict[tuple[Any, ...], Any]
+"""Results of proofs by kind and place on the path; a second search with exact distances does not change them."""
 
 _MAX_PROVED_POSES = 3  # poses of a path without a configuration for which a proof is tried
 
@@ -57,26 +58,33 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
     reach_proofs = ((sample, prove_unreachable(solver, space.free, q_locked, poses[sample])) for sample in order)
     simple_proof = next(((sample, text) for sample, text in chain(violations, reach_proofs) if text), None)
 
-    def prove(kind: str, sample: int, tolerance: Tolerance = EXACT_TOLERANCE) -> Any:
-        """Return the proof of one kind about a sample, or about all legs from ``sample``, unless it failed."""
-        proofs: dict[str, Callable[[], Any]] = {
-            "within": lambda: prove_within_tolerance(recovery, search, poses[sample]),
-            "pose": lambda: prove("within", sample) or search_pose(recovery, space, poses[sample])[1],
-            "leg": lambda: _prove_leg_impossible(recovery.degraded, recovery.task, path, space, tolerance, sample),
-        }
-        key = kind, sample, tolerance
+    def recall(key: tuple[Any, ...], prove: Callable[[], _Proof]) -> _Proof:
+        """Return the proof that was tried before, or else try it now."""
         if key not in tried:
-            tried[key] = proofs[kind]()
-        return tried[key]
+            tried[key] = prove()
+        proof: _Proof = tried[key]
+        return proof
 
-    box_proofs = ((sample, prove("pose", sample)) for sample in hardest_samples)
+    def prove_within(sample: int) -> str | None:
+        return recall(("within", fractions[sample]), lambda: prove_within_tolerance(recovery, search, poses[sample]))
+
+    def prove_pose(sample: int) -> str | None:
+        return recall(
+            ("pose", fractions[sample]), lambda: prove_within(sample) or search_pose(recovery, space, poses[sample])[1]
+        )
+
+    def prove_leg(tolerance: Tolerance, first_leg: int) -> tuple[int, str] | None:
+        request = (recovery.degraded, recovery.task, path, space, tolerance, first_leg)
+        return recall(("leg", tolerance, first_leg), lambda: _prove_leg_impossible(*request))
+
+    box_proofs = ((sample, prove_pose(sample)) for sample in hardest_samples)
     found_proof = simple_proof or next(((sample, text) for sample, text in box_proofs if text), None)
     if found_proof is None:
-        leg_proof = prove("leg", 0)
+        leg_proof = prove_leg(EXACT_TOLERANCE, 0)
         if leg_proof is None:
             return recovery
         proved_leg, leg_sentence = leg_proof
-        within = recovery.tolerance is not None and prove("leg", proved_leg, recovery.tolerance) is not None
+        within = recovery.tolerance is not None and prove_leg(recovery.tolerance, proved_leg) is not None
         return replace(recovery, proof=leg_sentence, proof_kind="disconnected", proved_within=within)
     proved_sample, sentence = found_proof
     is_violated = bool(describe_goal_violation(recovery.keep, solver.rows, poses[proved_sample]))
@@ -85,7 +93,7 @@ def prove_path_infeasible(recovery: Recovery, rest: RestOfPath, path: Path, sear
         proof=f"at {100 * fractions[proved_sample]:.1f} % of the tool path {sentence}",
         proof_kind="a pose of the path",
         proved_pose=None if is_violated else poses[proved_sample],
-        proved_within=any(prove("within", sample) for sample in (proved_sample, *hardest_samples)),
+        proved_within=any(prove_within(sample) for sample in (proved_sample, *hardest_samples)),
     )
 
 
